@@ -1,0 +1,12 @@
+//! The ground under the floors: typed ids, flat CSR arrays, errors with named culprits, and the run control
+//! (progress, cancel, log) that every engine takes.
+
+pub mod csr;
+pub mod error;
+pub mod ids;
+pub mod run;
+
+pub use csr::Csr;
+pub use error::{Culprit, DefectKind, Error, Result, Status};
+pub use ids::*;
+pub use run::Run;

@@ -1,0 +1,6 @@
+//! The output: cells, faces, edges and vertices with half-faces; and everything that all engines need to get
+//! from faces to nested cells and from there to the arrays that a host reads.
+
+pub mod data;
+
+pub use data::{Complex, HalfFace, Origin, SupportId};

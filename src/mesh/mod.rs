@@ -1,0 +1,85 @@
+//! The input: a closed triangle mesh from flat arrays, its adjacency, its defects by name, its shells and how
+//! they nest.
+
+use crate::base::{ComponentId, Csr, EdgeId, ShellId, TriangleId, VertexId};
+
+/// One use of an edge by a triangle: the triangle, which of its sides (side k joins corners k and k+1), and
+/// whether the triangle walks the edge from its lower vertex to its higher one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub struct EdgeUse {
+    pub triangle: TriangleId,
+    /// `side | forward << 2`
+    pub code: u8,
+}
+
+impl EdgeUse {
+    pub fn new(triangle: TriangleId, side: usize, forward: bool) -> Self {
+        Self { triangle, code: side as u8 | (forward as u8) << 2 }
+    }
+    #[inline(always)]
+    pub fn side(self) -> usize {
+        (self.code & 3) as usize
+    }
+    #[inline(always)]
+    pub fn forward(self) -> bool {
+        self.code & 4 != 0
+    }
+}
+
+/// A shell of the surface: triangles connected through wedges of solid (two triangles at an edge belong
+/// together when the wedge between them is inside). Two solids that share an edge are two shells.
+#[derive(Clone, Debug)]
+pub struct Shell {
+    /// A triangle of the shell, the lowest.
+    pub triangle: TriangleId,
+    /// The edge-connected component of the surface that it belongs to.
+    pub component: ComponentId,
+    /// Encloses solid (true) or is the wall of a void (false).
+    pub outer: bool,
+    /// For a void: how it hangs in the solid around it.
+    pub anchor: Option<Anchor>,
+}
+
+/// The segment from a void's wall through solid to the first surface it meets: from the point of `from` with
+/// barycentric weights 1 : k : k² (over its three corners in order), along `axis` in direction `positive`, to the
+/// interior of triangle `hit`.
+#[derive(Clone, Copy, Debug)]
+pub struct Anchor {
+    pub from: TriangleId,
+    pub k: u32,
+    pub axis: usize,
+    pub positive: bool,
+    pub hit: TriangleId,
+}
+
+/// A closed, valid triangle mesh. Made by [`build`]; never changed afterwards.
+#[derive(Clone, Debug, Default)]
+pub struct TriMesh {
+    /// Vertices that triangles use, in input order.
+    pub vertices: Vec<[f64; 3]>,
+    /// The input index of each vertex (merged duplicates: the lowest).
+    pub vertex_source: Vec<u32>,
+    pub triangles: Vec<[VertexId; 3]>,
+    /// One tag per triangle, or empty.
+    pub tags: Vec<i32>,
+    /// Lower vertex first; sorted.
+    pub edges: Vec<[VertexId; 2]>,
+    /// Side k joins corners k and k+1 (mod 3).
+    pub triangle_edges: Vec<[EdgeId; 3]>,
+    /// The uses of each edge, by triangle id.
+    pub edge_uses: Csr<EdgeUse>,
+    /// The shell of each triangle.
+    pub triangle_shell: Vec<ShellId>,
+    pub shells: Vec<Shell>,
+    pub component_count: usize,
+    /// Lowest and highest corner of the bounding box.
+    pub bbox: [[f64; 3]; 2],
+}
+
+impl TriMesh {
+    #[inline(always)]
+    pub fn corners(&self, t: TriangleId) -> [[f64; 3]; 3] {
+        let [a, b, c] = self.triangles[t.at()];
+        [self.vertices[a.at()], self.vertices[b.at()], self.vertices[c.at()]]
+    }
+}
