@@ -1,6 +1,7 @@
 //! Lapidary partitions 3-D space exactly. See `docs/architecture.md` for the house and where to start reading.
 
 pub mod base;
+pub mod capi;
 pub mod complex;
 pub mod exact;
 pub mod mesh;

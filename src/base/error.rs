@@ -24,6 +24,8 @@ pub enum Status {
     Inconsistent = 8,
     /// A fault of the library (a caught panic).
     Internal = 9,
+    /// The context is in use, by another thread or by the call whose callback asks.
+    Busy = 10,
 }
 
 /// What is wrong with an element of the input mesh. Numbers are pinned, as for [`Status`].

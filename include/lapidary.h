@@ -1,0 +1,847 @@
+/*
+ * Lapidary: exact partitions of 3-D space. This header is the manual. It is generated from src/capi: do not edit it.
+ *
+ * Handles. lap_noun_new makes a handle, lap_noun_free frees it; freeing NULL does nothing. Handles may be freed in any
+ * order. A const handle may be used from many threads at once. A context is used by one thread at a time.
+ *
+ * Status. Every function returns an int32_t: LAP_OK (0), or a LAP_ERR_* number. Functions that take a context leave the
+ * message, and the kind and the elements of every defect, in it (lap_context_last_error, lap_context_last_defects).
+ * After an error outputs are as they were, except that handles are NULL. Any function may return LAP_ERR_INTERNAL.
+ *
+ * Arrays. Inputs are borrowed for the call. Outputs are borrowed views: pointers into the handle, valid until that handle
+ * is freed, never to be freed or written. A view of no elements may be NULL. Indices count from 0. What is of varying
+ * length comes as CSR: row i is items[offsets[i]] up to, not including, items[offsets[i + 1]].
+ *
+ * Options. Option structs start with their size and are filled by lap_..._options_init(&options, sizeof options).
+ *
+ * Floating point. Calls may be made under any floating-point environment (-ffast-math, traps, rounding modes): the library
+ * computes under its own and puts the caller's back. Callbacks run under the caller's.
+ *
+ * Exactness. Every input double is taken as the exact number that it is, and every decision is the exact one. Results do not
+ * depend on the number of threads or on the machine, bit for bit.
+ */
+
+
+#ifndef LAPIDARY_H
+#define LAPIDARY_H
+
+#include <stdint.h>
+
+/* Success. */
+#define LAP_OK 0
+
+/* A pointer that must not be NULL is NULL. */
+#define LAP_ERR_NULL_POINTER 1
+
+/* A count, an index, an option or a constant is out of its range. */
+#define LAP_ERR_BAD_ARGUMENT 2
+
+/* A count exceeds the 32-bit index type. */
+#define LAP_ERR_TOO_LARGE 3
+
+/* The input mesh has defects; lap_context_last_defects lists them. */
+#define LAP_ERR_BAD_MESH 4
+
+/* A plane is not finite or has a zero normal; lap_context_last_defects lists them. */
+#define LAP_ERR_BAD_PLANE 5
+
+/* The progress callback asked to stop. Nothing is left behind. */
+#define LAP_ERR_CANCELLED 6
+
+/* Memory or a thread could not be had. */
+#define LAP_ERR_OUT_OF_MEMORY 7
+
+/* The geometry contradicts itself: the input intersects itself and was not checked for it. */
+#define LAP_ERR_INCONSISTENT 8
+
+/* A fault of the library. The process and all handles stay usable. */
+#define LAP_ERR_INTERNAL 9
+
+/* The context is in use: by another thread, or by the very call whose callback makes this one. */
+#define LAP_ERR_BUSY 10
+
+/* A coordinate is NaN or infinite. ids: vertex */
+#define LAP_DEFECT_NON_FINITE_COORDINATE 1
+
+/* A vertex index is negative or too large. ids: triangle, corner (0, 1, 2), the index as given */
+#define LAP_DEFECT_INDEX_OUT_OF_RANGE 2
+
+/* The corners of a triangle lie on a line, exactly. ids: triangle */
+#define LAP_DEFECT_DEGENERATE_TRIANGLE 3
+
+/* The triangles at an edge do not balance in number. ids: vertex, vertex, one triangle there */
+#define LAP_DEFECT_OPEN_EDGE 4
+
+/* The triangles at an edge balance in number, not in orientation. ids: vertex, vertex, one triangle there */
+#define LAP_DEFECT_INCONSISTENT_ORIENTATION 5
+
+/* Two vertices have equal coordinates. ids: lower vertex, higher vertex */
+#define LAP_DEFECT_DUPLICATE_VERTEX 6
+
+/* Signed volume does not alternate with nesting depth. ids: a triangle of the shell */
+#define LAP_DEFECT_WRONG_NESTING 7
+
+/* A shell without volume. ids: a triangle of the shell */
+#define LAP_DEFECT_ZERO_VOLUME 8
+
+/* Two triangles meet outside what they share by index. ids: triangle, triangle */
+#define LAP_DEFECT_SELF_INTERSECTION 9
+
+/* There are no triangles. ids: none */
+#define LAP_DEFECT_EMPTY 10
+
+/* A coefficient of a plane is NaN or infinite. ids: plane */
+#define LAP_DEFECT_NON_FINITE_PLANE 11
+
+/* The normal of a plane is zero. ids: plane */
+#define LAP_DEFECT_ZERO_NORMAL 12
+
+/* Largest number of threads of a context. */
+#define LAP_MAX_THREADS 1024
+
+/* Level of a log message: what the library does and why. */
+#define LAP_LOG_INFO 0
+
+/* A vertex of the input mesh. ids: its index in the caller's array */
+#define LAP_VERTEX_MESH 0
+
+/* Where an edge of the mesh crosses a plane. ids: the two vertices of the edge, the lowest plane */
+#define LAP_VERTEX_EDGE 1
+
+/* Inside a triangle of the mesh, on two planes. ids: triangle, plane, plane */
+#define LAP_VERTEX_TRIANGLE 2
+
+/* Inside the solid, on three planes. ids: plane, plane, plane */
+#define LAP_VERTEX_PLANES 3
+
+/* A face that lies on a triangle of the input mesh. */
+#define LAP_SUPPORT_TRIANGLE 0
+
+/* A face that lies on a plane. */
+#define LAP_SUPPORT_PLANE 1
+
+/* Faces with holes: one polygon per loop. */
+#define LAP_FACES_HOLES 0
+
+/* Every hole joined to its outer loop by a bridge that is walked twice: one polygon per face. */
+#define LAP_FACES_BRIDGED 1
+
+/* Triangles. */
+#define LAP_FACES_TRIANGLES 2
+
+/*
+ Vertices, edges, faces and cells. Belongs to the handle that it was borrowed from. Ids are positions in the
+ arrays, from 0. Immutable: a const handle may be used from many threads at once; what is computed on demand is
+ computed once.
+
+ Half-faces: side s of face f is the half-face 2 f + s. Side 0 is the back, from which the face's normal points away;
+ it belongs to the cell behind the face, the owner, whose outward normal the face's normal is. Side 1 is the front; it
+ belongs to the neighbour, and there the outward normal is the face's normal reversed.
+ */
+typedef struct lap_complex lap_complex;
+
+/*
+ What calls need besides their data: threads, callbacks, the last error, predicate counters. One thread uses a
+ context at a time; any number of contexts may exist. Other handles do not need the context that made them once they
+ are made, so it may be freed before them. Do not carry a context over a fork().
+ */
+typedef struct lap_context lap_context;
+
+/*
+ The cells into which planes divide a solid, and how they were found. Immutable: a const handle may be used from many
+ threads at once.
+ */
+typedef struct lap_cut lap_cut;
+
+/*
+ A closed triangle mesh that bounds a solid: the triangles of every edge balance in orientation, solids are oriented
+ outward and voids inward. Any genus, several components, voids, non-manifold edges and vertices. Immutable: a const
+ handle may be used from many threads at once.
+ */
+typedef struct lap_mesh lap_mesh;
+
+/*
+ Progress of a call: the name of its stage (valid during the callback) and the fraction of the whole call that is
+ done, from 0 to 1, never falling. Return 0 to go on, anything else to cancel the call.
+
+ Runs on the thread that made the call and under the floating-point environment which that thread had. Must
+ return normally (no exception, no longjmp) and must not use the same context (LAP_ERR_BUSY).
+ */
+typedef int32_t (*lap_progress)(void *user, const char *stage, double fraction);
+
+/* A log message (valid during the callback) and its level, LAP_LOG_INFO. The same rules as for lap_progress. */
+typedef void (*lap_log)(void *user, int32_t level, const char *message);
+
+/* Options of lap_mesh_new; filled by lap_mesh_options_init. */
+typedef struct lap_mesh_options {
+    /* Size of this struct in bytes, as the caller was compiled. */
+    int32_t struct_size;
+    /*
+     Nonzero: vertices with equal coordinates become one (the lowest index stands for all). 0, the default: they
+     are told apart by their indices.
+     */
+    int32_t merge_duplicate_vertices;
+    /*
+     Nonzero: find every pair of triangles that meet outside a vertex or an edge which they share, exactly. 0, the
+     default: self-intersecting input gives LAP_ERR_INCONSISTENT or a result of unspecified geometry, never a crash.
+     */
+    int32_t check_self_intersection;
+} lap_mesh_options;
+
+/* Options of lap_cut_new; filled by lap_cut_options_init. */
+typedef struct lap_cut_options {
+    /* Size of this struct in bytes, as the caller was compiled. */
+    int32_t struct_size;
+    /*
+     Nonzero: run lap_complex_check on the result and fail with LAP_ERR_INCONSISTENT if it does not hold. 0, the
+     default: do not.
+     */
+    int32_t check;
+} lap_cut_options;
+
+#ifdef __cplusplus
+extern "C" {
+#endif // __cplusplus
+
+/*
+ The version of the library that is running.
+
+ Outputs (each may be NULL): the three numbers, and "major.minor.patch" as a string that lives as long as the
+ process. Versions with equal major number are compatible (with major number 0: with equal minor number).
+
+ Errors: none. Threads: any. Cost: none.
+ */
+int32_t lap_version(int32_t *major, int32_t *minor, int32_t *patch, const char **text);
+
+/*
+ The name of a status code, for example "LAP_ERR_BAD_MESH"; "LAP_ERR_?" for a number that is no status code.
+
+ name: the string lives as long as the process.
+
+ Errors: LAP_ERR_NULL_POINTER if name is NULL. Threads: any. Cost: none.
+ */
+int32_t lap_status_name(int32_t status, const char **name);
+
+/*
+ The name of a defect kind, for example "LAP_DEFECT_OPEN_EDGE"; "LAP_DEFECT_?" for a number that is none.
+
+ name: the string lives as long as the process.
+
+ Errors: LAP_ERR_NULL_POINTER if name is NULL. Threads: any. Cost: none.
+ */
+int32_t lap_defect_name(int32_t kind, const char **name);
+
+/*
+ Makes a context: one thread, no callbacks, counters off.
+
+ context: receives the handle; free it with lap_context_free. The pool's threads are started when first needed.
+
+ Errors: LAP_ERR_NULL_POINTER. Threads: any. Cost: an allocation.
+ */
+int32_t lap_context_new(struct lap_context **context);
+
+/*
+ Frees a context and all that was borrowed from it. NULL is allowed and does nothing.
+
+ Errors: LAP_ERR_BUSY if called from one of the context's callbacks; nothing is freed then.
+ */
+int32_t lap_context_free(struct lap_context *context);
+
+/*
+ Sets how many worker threads the calls with this context use: 1 (the default) to LAP_MAX_THREADS. Results do not
+ depend on it, bit for bit. With 1, a call computes in one worker thread while the calling thread waits.
+
+ Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BAD_ARGUMENT, LAP_ERR_BUSY. Cost: none; a pool of the old size is let go.
+ */
+int32_t lap_context_set_threads(struct lap_context *context,
+                                int32_t threads);
+
+/*
+ The number of worker threads that calls with this context use.
+
+ Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BUSY. Cost: none.
+ */
+int32_t lap_context_threads(struct lap_context *context, int32_t *threads);
+
+/*
+ Sets the progress callback (NULL: none) and the pointer that is handed to it.
+
+ Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BUSY. Cost: some microseconds per call-back.
+ */
+int32_t lap_context_set_progress(struct lap_context *context, lap_progress callback, void *user);
+
+/*
+ Sets the log callback (NULL: none) and the pointer that is handed to it. The library never writes to a file, to
+ the standard output or to the standard error by itself.
+
+ Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BUSY. Cost: some microseconds per call-back.
+ */
+int32_t lap_context_set_log(struct lap_context *context,
+                            lap_log callback,
+                            void *user);
+
+/*
+ How the last call with this context ended: its status (LAP_OK after success) and its message ("" after success),
+ which names the offending element. Calls of lap_context_last_error, lap_context_last_defects, lap_context_threads
+ and lap_context_counter* leave both as they are.
+
+ Outputs (each may be NULL). message is valid until the next call with this context.
+
+ Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BUSY. Cost: none.
+ */
+int32_t lap_context_last_error(struct lap_context *context,
+                               int32_t *status,
+                               const char **message);
+
+/*
+ All defects that the last call with this context found (none after success).
+
+ Outputs (each may be NULL): count; kinds: count numbers LAP_DEFECT_*; ids: 3 × count, the elements of each defect as
+ LAP_DEFECT_* says, in the caller's numbering, -1 where unused. The arrays are valid until the next call with this
+ context.
+
+ Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BUSY. Cost: none.
+ */
+int32_t lap_context_last_defects(struct lap_context *context,
+                                 int64_t *count,
+                                 const int32_t **kinds,
+                                 const int64_t **ids);
+
+/*
+ Switches the predicate counters on (nonzero) or off (0, the default). They tell, per predicate and per tier, how many
+ decisions the calls with this context took.
+
+ Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BUSY. Cost when on: a few percent of a call.
+ */
+int32_t lap_context_counters_enable(struct lap_context *context,
+                                    int32_t on);
+
+/*
+ Sets all predicate counters to 0.
+
+ Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BUSY. Cost: none.
+ */
+int32_t lap_context_counters_reset(struct lap_context *context);
+
+/*
+ How many predicate counters there are; 0 until a call has run with counters on.
+
+ Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BUSY. Cost: none.
+ */
+int32_t lap_context_counters_count(struct lap_context *context, int32_t *count);
+
+/*
+ Predicate counter i, from 0: its name ("predicate.tier") and its value, summed over all calls since it was reset.
+
+ Outputs (each may be NULL). name is valid until the next call with this context.
+
+ Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BAD_ARGUMENT if there is no such counter, LAP_ERR_BUSY. Cost: none.
+ */
+int32_t lap_context_counter(struct lap_context *context,
+                            int32_t i,
+                            const char **name,
+                            int64_t *value);
+
+/*
+ Fills mesh options with the defaults.
+
+ struct_size: pass (int32_t)sizeof(lap_mesh_options); no more than that is written, so a program compiled against an
+ older header keeps working.
+
+ Errors: LAP_ERR_NULL_POINTER; LAP_ERR_BAD_ARGUMENT if the size is not a multiple of 4 in 4..4096.
+ */
+int32_t lap_mesh_options_init(struct lap_mesh_options *options,
+                              int32_t struct_size);
+
+/*
+ Makes a mesh from flat arrays.
+
+ Inputs (borrowed for the call): xyz: 3 × n_vertices coordinates, each taken as the exact number that it is, in any
+ unit; indices: 3 × n_triangles vertex indices from 0, anticlockwise seen from outside the solid; tags: n_triangles
+ numbers that are carried to the faces of results (boundary patch, body), or NULL; options: or NULL for the defaults.
+ Vertices that no triangle uses are allowed. mesh: receives the handle, NULL after an error; free it with
+ lap_mesh_free.
+
+ Errors: LAP_ERR_BAD_MESH with all defects found (lap_context_last_defects): coordinates that are not finite, indices
+ out of range, degenerate triangles, open edges, inconsistent orientation, wrong nesting, no triangles, and if asked
+ for self-intersections; LAP_ERR_NULL_POINTER, LAP_ERR_BAD_ARGUMENT, LAP_ERR_TOO_LARGE, LAP_ERR_CANCELLED,
+ LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY.
+ Cost: n log n; with the check for self-intersections several times that.
+ */
+int32_t lap_mesh_new(struct lap_context *context,
+                     int64_t n_vertices,
+                     const double *xyz,
+                     int64_t n_triangles,
+                     const int32_t *indices,
+                     const int32_t *tags,
+                     const struct lap_mesh_options *options,
+                     struct lap_mesh **mesh);
+
+/*
+ Runs every check of lap_mesh_new, the one for self-intersections included, without making a mesh.
+
+ Inputs as for lap_mesh_new (options may be NULL; check_self_intersection is taken as set). n_defects (may be NULL)
+ receives how many defects there are.
+
+ Errors: those of lap_mesh_new: LAP_OK means that the mesh is valid, after LAP_ERR_BAD_MESH lap_context_last_defects
+ lists all defects. Cost: that of lap_mesh_new with the check for self-intersections.
+ */
+int32_t lap_mesh_validate(struct lap_context *context,
+                          int64_t n_vertices,
+                          const double *xyz,
+                          int64_t n_triangles,
+                          const int32_t *indices,
+                          const struct lap_mesh_options *options,
+                          int64_t *n_defects);
+
+/*
+ Frees a mesh. NULL is allowed and does nothing. Results made from the mesh stay valid.
+
+ Errors: none.
+ */
+int32_t lap_mesh_free(struct lap_mesh *mesh);
+
+/*
+ How many elements a mesh has: vertices (those that triangles use), triangles (all that were given), edges,
+ components (sets of triangles connected through edges), shells (sets of triangles connected through wedges of solid
+ at their edges; two solids that share an edge are two shells).
+
+ Outputs: each may be NULL. Errors: LAP_ERR_NULL_POINTER if mesh is NULL. Threads: any. Cost: none.
+ */
+int32_t lap_mesh_counts(const struct lap_mesh *mesh,
+                        int64_t *vertices,
+                        int64_t *triangles,
+                        int64_t *edges,
+                        int64_t *components,
+                        int64_t *shells);
+
+/*
+ The bounding box of a mesh.
+
+ bounds: receives a pointer to 6 doubles, lowest x, y, z and highest x, y, z; borrowed until the mesh is freed.
+
+ Errors: LAP_ERR_NULL_POINTER. Threads: any. Cost: none.
+ */
+int32_t lap_mesh_bounds(const struct lap_mesh *mesh,
+                        const double **bounds);
+
+/*
+ The vertices of a mesh as it is held: those that triangles use, merged if asked for.
+
+ Outputs (each may be NULL; borrowed until the mesh is freed): count; xyz: 3 × count; sources: count indices of the
+ vertices in the caller's array.
+
+ Errors: LAP_ERR_NULL_POINTER if mesh is NULL. Threads: any. Cost: none.
+ */
+int32_t lap_mesh_vertices(const struct lap_mesh *mesh,
+                          int64_t *count,
+                          const double **xyz,
+                          const int32_t **sources);
+
+/*
+ The triangles of a mesh, in the caller's order.
+
+ Outputs (each may be NULL; borrowed until the mesh is freed): count; vertices: 3 × count positions in the array of
+ lap_mesh_vertices; tags: count numbers as given, NULL if none were given.
+
+ Errors: LAP_ERR_NULL_POINTER if mesh is NULL. Threads: any. Cost: none.
+ */
+int32_t lap_mesh_triangles(const struct lap_mesh *mesh,
+                           int64_t *count,
+                           const int32_t **vertices,
+                           const int32_t **tags);
+
+/*
+ The volume of the solid, in cubed units of the input: the double nearest to the exact volume.
+
+ Errors: LAP_ERR_NULL_POINTER. Threads: any. Cost: one exact sum over the triangles.
+ */
+int32_t lap_mesh_volume(const struct lap_mesh *mesh, double *volume);
+
+/*
+ The exact volume of the solid as a canonical string, "num/den" or "num" for an integer, in decimal.
+
+ volume: valid until the next call with this context. A GMP or CGAL rational reads it.
+
+ Errors: LAP_ERR_NULL_POINTER, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: one exact sum over the triangles.
+ */
+int32_t lap_mesh_volume_exact(struct lap_context *context, const struct lap_mesh *mesh, const char **volume);
+
+/*
+ The Euler characteristic of the solid, by the expression of lap_complex_euler: ball 1, ball with a void 2, solid
+ torus 0, two tetrahedra sharing a vertex 1.
+
+ Errors: LAP_ERR_NULL_POINTER. Threads: any. Cost: linear.
+ */
+int32_t lap_mesh_euler(const struct lap_mesh *mesh,
+                       int64_t *euler);
+
+/*
+ Fills cut options with the defaults.
+
+ struct_size: pass (int32_t)sizeof(lap_cut_options); no more than that is written, so a program compiled against an
+ older header keeps working.
+
+ Errors: LAP_ERR_NULL_POINTER; LAP_ERR_BAD_ARGUMENT if the size is not a multiple of 4 in 4..4096.
+ */
+int32_t lap_cut_options_init(struct lap_cut_options *options,
+                             int32_t struct_size);
+
+/*
+ Cuts a solid along planes.
+
+ Inputs (borrowed for the call): mesh; planes: 4 × n_planes numbers, a, b, c, d for the plane a x + b y + c z + d = 0,
+ each taken as the exact number that it is, in any position and of any length (coincident planes count once;
+ n_planes may be 0); options: or NULL for the defaults. The positive side of a plane is where a x + b y + c z + d > 0.
+ cut: receives the handle, NULL after an error or cancel; free it with lap_cut_free. It does not need the mesh handle
+ or the context to stay alive.
+
+ Errors: LAP_ERR_BAD_PLANE with all defects found (not finite, zero normal), LAP_ERR_INCONSISTENT for input that
+ intersects itself, LAP_ERR_NULL_POINTER, LAP_ERR_BAD_ARGUMENT, LAP_ERR_TOO_LARGE, LAP_ERR_CANCELLED,
+ LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: grows with the size of the result and n log n of the input.
+ */
+int32_t lap_cut_new(struct lap_context *context,
+                    const struct lap_mesh *mesh,
+                    int64_t n_planes,
+                    const double *planes,
+                    const struct lap_cut_options *options,
+                    struct lap_cut **cut);
+
+/*
+ Frees a cut and all that was borrowed from it, its complex included. NULL is allowed and does nothing.
+
+ Errors: none.
+ */
+int32_t lap_cut_free(struct lap_cut *cut);
+
+/*
+ The cells, faces, edges and vertices of a cut.
+
+ complex: borrowed until the cut is freed; do not free it.
+
+ Errors: LAP_ERR_NULL_POINTER. Threads: any. Cost: none.
+ */
+int32_t lap_cut_complex(const struct lap_cut *cut, const struct lap_complex **complex);
+
+/*
+ Which planes coincide.
+
+ Outputs (each may be NULL; borrowed until the cut is freed): count: the number of planes given; map: for each, the
+ lowest index of the planes that coincide with it (its own, if there is no lower one). The complex speaks of
+ planes by these lowest indices only. Opposite orientation does not keep planes from coinciding.
+
+ Errors: LAP_ERR_NULL_POINTER if cut is NULL. Threads: any. Cost: none.
+ */
+int32_t lap_cut_plane_map(const struct lap_cut *cut,
+                          int64_t *count,
+                          const int32_t **map);
+
+/*
+ How many stages the cut ran through.
+
+ Errors: LAP_ERR_NULL_POINTER. Threads: any. Cost: none.
+ */
+int32_t lap_cut_stage_count(const struct lap_cut *cut, int32_t *count);
+
+/*
+ Stage i of the cut, from 0, in the order in which they ran: its name and its time in seconds.
+
+ Outputs (each may be NULL). name is borrowed until the cut is freed.
+
+ Errors: LAP_ERR_NULL_POINTER if cut is NULL, LAP_ERR_BAD_ARGUMENT if there is no such stage. Threads: any. Cost: none.
+ */
+int32_t lap_cut_stage(const struct lap_cut *cut,
+                      int32_t i,
+                      const char **name,
+                      double *seconds);
+
+/*
+ How many statistics there are (how orders were found: by topology alone, or numerically).
+
+ Errors: LAP_ERR_NULL_POINTER. Threads: any. Cost: none.
+ */
+int32_t lap_cut_statistic_count(const struct lap_cut *cut, int32_t *count);
+
+/*
+ Statistic i, from 0: its name and its value.
+
+ Outputs (each may be NULL). name is borrowed until the cut is freed.
+
+ Errors: LAP_ERR_NULL_POINTER if cut is NULL, LAP_ERR_BAD_ARGUMENT if there is no such statistic. Threads: any.
+ Cost: none.
+ */
+int32_t lap_cut_statistic(const struct lap_cut *cut,
+                          int32_t i,
+                          const char **name,
+                          int64_t *value);
+
+/*
+ How many elements a complex has. loops, corners: of all faces; shells: of all cells.
+
+ Outputs: each may be NULL. Errors: LAP_ERR_NULL_POINTER if complex is NULL. Threads: any. Cost: none.
+ */
+int32_t lap_complex_counts(const struct lap_complex *complex,
+                           int64_t *vertices,
+                           int64_t *edges,
+                           int64_t *faces,
+                           int64_t *cells,
+                           int64_t *loops,
+                           int64_t *corners,
+                           int64_t *shells);
+
+/*
+ The coordinates of the vertices: each the double nearest to the exact coordinate (ties to even, zero as +0), in the
+ units of the input. Vertices of the input mesh come first.
+
+ Outputs (each may be NULL; borrowed as the complex): count; xyz: 3 × count.
+
+ Errors: LAP_ERR_NULL_POINTER if complex is NULL. Threads: any. Cost: none.
+ */
+int32_t lap_complex_vertices(const struct lap_complex *complex,
+                             int64_t *count,
+                             const double **xyz);
+
+/*
+ What each vertex is, symbolically.
+
+ Outputs (each may be NULL; borrowed as the complex): count; kinds: count numbers LAP_VERTEX_*; ids: 3 × count, as
+ LAP_VERTEX_* says, in the caller's numbering, -1 where unused.
+
+ Errors: LAP_ERR_NULL_POINTER if complex is NULL. Threads: any. Cost: linear at the first call, then none.
+ */
+int32_t lap_complex_vertex_origins(const struct lap_complex *complex,
+                                   int64_t *count,
+                                   const int32_t **kinds,
+                                   const int32_t **ids);
+
+/*
+ All planes through each vertex, rising (of coincident planes the lowest).
+
+ Outputs (each may be NULL; borrowed as the complex): count: the number of vertices; offsets: count + 1; planes: those
+ of vertex v are planes[offsets[v]] up to, not including, planes[offsets[v + 1]].
+
+ Errors: LAP_ERR_NULL_POINTER if complex is NULL. Threads: any. Cost: none.
+ */
+int32_t lap_complex_vertex_planes(const struct lap_complex *complex,
+                                  int64_t *count,
+                                  const int32_t **offsets,
+                                  const int32_t **planes);
+
+/*
+ The edges.
+
+ Outputs (each may be NULL; borrowed as the complex): count; vertices: 2 × count.
+
+ Errors: LAP_ERR_NULL_POINTER if complex is NULL. Threads: any. Cost: none.
+ */
+int32_t lap_complex_edges(const struct lap_complex *complex, int64_t *count, const int32_t **vertices);
+
+/*
+ The faces with their holes. A face is a set of loops, the outer loop first, then holes; seen with the face's normal
+ up, the outer loop runs anticlockwise and holes run clockwise. A loop is a cyclic run of corners. An edge with the
+ face on both its sides is walked twice; an isolated vertex inside a face is a hole of one corner and no edge.
+
+ Outputs (each may be NULL; borrowed as the complex): count: the number of faces; face_loops: count + 1, face f has the
+ loops face_loops[f] up to, not including, face_loops[f + 1]; loop_corners: number of loops + 1, loop l has the corners
+ loop_corners[l] up to, not including, loop_corners[l + 1]; corner_vertices: the vertex of each corner; corner_edges:
+ the edge from each corner to the next of its loop (from the last to the first), -1 for an isolated vertex.
+
+ Errors: LAP_ERR_NULL_POINTER if complex is NULL. Threads: any. Cost: none.
+ */
+int32_t lap_complex_faces(const struct lap_complex *complex,
+                          int64_t *count,
+                          const int32_t **face_loops,
+                          const int32_t **loop_corners,
+                          const int32_t **corner_vertices,
+                          const int32_t **corner_edges);
+
+/*
+ What each face lies on. A face on both a triangle and a plane has the triangle as its support, and the plane as well.
+
+ Outputs (each may be NULL; borrowed as the complex): count; kinds: count numbers LAP_SUPPORT_*; ids: count indices of
+ triangles or planes, in the caller's numbering; planes: for each face the lowest plane that it lies on, -1 if none;
+ tags: for each face the tag of its triangle, 0 for faces on planes only and without tags. The normal of a face is
+ that of its support: of the triangle, or (a, b, c) of the plane.
+
+ Errors: LAP_ERR_NULL_POINTER if complex is NULL. Threads: any. Cost: linear at the first call, then none.
+ */
+int32_t lap_complex_face_supports(const struct lap_complex *complex,
+                                  int64_t *count,
+                                  const int32_t **kinds,
+                                  const int32_t **ids,
+                                  const int32_t **planes,
+                                  const int32_t **tags);
+
+/*
+ The cells on the two sides of each face.
+
+ Outputs (each may be NULL; borrowed as the complex): count: the number of faces; cells: 2 × count, the owner (behind
+ the face, on the side that its normal points away from), and the neighbour (before it), -1 outside the solid.
+
+ Errors: LAP_ERR_NULL_POINTER if complex is NULL. Threads: any. Cost: none.
+ */
+int32_t lap_complex_face_cells(const struct lap_complex *complex,
+                               int64_t *count,
+                               const int32_t **cells);
+
+/*
+ The cells. A cell is bounded by shells, the outer shell first, then voids; a shell is a closed set of half-faces.
+
+ Outputs (each may be NULL; borrowed as the complex): count: the number of cells; cell_shells: count + 1, cell c has the
+ shells cell_shells[c] up to, not including, cell_shells[c + 1]; shell_faces: number of shells + 1, shell s has the
+ half-faces half_faces[shell_faces[s]] up to, not including, half_faces[shell_faces[s + 1]]; half_faces: 2 f + side,
+ side 0 where the normal of face f points out of the cell, 1 where it points into it; rising in each shell.
+
+ Errors: LAP_ERR_NULL_POINTER if complex is NULL. Threads: any. Cost: none.
+ */
+int32_t lap_complex_cells(const struct lap_complex *complex,
+                          int64_t *count,
+                          const int32_t **cell_shells,
+                          const int32_t **shell_faces,
+                          const int32_t **half_faces);
+
+/*
+ The component of the input mesh (0 up to lap_mesh_counts' components) that each cell belongs to: that of the surface
+ which encloses it.
+
+ Outputs (each may be NULL; borrowed as the complex): count: the number of cells; components: count.
+
+ Errors: LAP_ERR_NULL_POINTER if complex is NULL. Threads: any. Cost: none.
+ */
+int32_t lap_complex_cell_components(const struct lap_complex *complex,
+                                    int64_t *count,
+                                    const int32_t **components);
+
+/*
+ The side of a plane that a cell is on: side receives 1 where a x + b y + c z + d > 0, -1 where it is < 0.
+
+ cell: from 0; plane: index in the caller's array (any of coincident planes).
+
+ Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BAD_ARGUMENT for a cell or plane that is not there. Threads: any. Cost: one
+ exact sign, and a walk over those vertices of the cell that lie on the plane.
+ */
+int32_t lap_complex_cell_side(const struct lap_complex *complex,
+                              int32_t cell,
+                              int32_t plane,
+                              int32_t *side);
+
+/*
+ The moments of the cells: volume and centroid, in powers of the units of the input.
+
+ Outputs (each may be NULL; borrowed as the complex): count: the number of cells; volumes: count; centroids: 3 × count;
+ flags: count, nonzero where a moment is beyond the range of double (it is then infinite, or 0). Every number is
+ within 4 units in the last place of the exact one.
+
+ Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_INTERNAL. Threads: any. Cost: one walk over all faces at
+ the first call, then none.
+ */
+int32_t lap_complex_cell_moments(const struct lap_complex *complex,
+                                 int64_t *count,
+                                 const double **volumes,
+                                 const double **centroids,
+                                 const uint8_t **flags);
+
+/*
+ The moments of the faces: area vector (along the face's normal, its length the area) and centroid.
+
+ Outputs (each may be NULL; borrowed as the complex): count: the number of faces; area_vectors: 3 × count; centroids: 3 ×
+ count; flags: count, nonzero where a moment is beyond the range of double (it is then infinite, or 0). Every number
+ is within 4 units in the last place of the exact one.
+
+ Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_INTERNAL. Threads: any. Cost: one walk over all faces at
+ the first call, then none.
+ */
+int32_t lap_complex_face_moments(const struct lap_complex *complex,
+                                 int64_t *count,
+                                 const double **area_vectors,
+                                 const double **centroids,
+                                 const uint8_t **flags);
+
+/*
+ The faces as plain polygons, without new vertices.
+
+ style: LAP_FACES_HOLES, LAP_FACES_BRIDGED or LAP_FACES_TRIANGLES. Outputs (each may be NULL; borrowed as the complex):
+ count: the number of polygons; offsets: count + 1; vertices: those of polygon i are vertices[offsets[i]] up to, not
+ including, vertices[offsets[i + 1]]; faces: for each polygon the face that it is a part of, never falling. Polygons
+ run anticlockwise seen with the face's normal up (holes clockwise).
+
+ Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_BAD_ARGUMENT for an unknown style, LAP_ERR_INTERNAL.
+ Threads: any. Cost: n log n in the size of each face at the first call for a style, then none.
+ */
+int32_t lap_complex_polygons(const struct lap_complex *complex,
+                             int32_t style,
+                             int64_t *count,
+                             const int32_t **offsets,
+                             const int32_t **vertices,
+                             const int32_t **faces);
+
+/*
+ Which half-face follows across an edge on the surface of the same cell.
+
+ Outputs (each may be NULL; borrowed as the complex): count: the number of corners, as in lap_complex_faces; adjacent:
+ 2 × count: adjacent[2 c + s] is the half-face that meets side s of the corner's face along the edge from corner c to the
+ next, -1 for an isolated vertex.
+
+ Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_INTERNAL. Threads: any. Cost: radial orders around all edges
+ at the first call, then none.
+ */
+int32_t lap_complex_adjacency(const struct lap_complex *complex,
+                              int64_t *count,
+                              const int32_t **adjacent);
+
+/*
+ The Euler characteristic of the complex and of the solid that it was made from; a correct complex has both equal.
+ Vertices - edges + sum over faces of (1 - holes) - sum over cells of half the Euler characteristics of their shells.
+
+ Outputs: each may be NULL. Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_INTERNAL. Threads: any. Cost:
+ linear at the first call, then none.
+ */
+int32_t lap_complex_euler(const struct lap_complex *complex,
+                          int64_t *output,
+                          int64_t *input);
+
+/*
+ Checks that a complex is consistent: indices in range, loops and shells closed, each face owned by one or two cells,
+ Euler characteristics equal.
+
+ Errors: LAP_ERR_INCONSISTENT with a message that names the element; LAP_ERR_NULL_POINTER, LAP_ERR_OUT_OF_MEMORY,
+ LAP_ERR_BUSY. Cost: linear.
+ */
+int32_t lap_complex_check(struct lap_context *context,
+                          const struct lap_complex *complex);
+
+/*
+ The exact coordinates of a vertex as canonical strings, "num/den" or "num" for an integer, in decimal. A GMP or CGAL
+ rational reads them.
+
+ Outputs (each may be NULL): x, y, z: valid until the next call with this context.
+
+ Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BAD_ARGUMENT for a vertex that is not there, LAP_ERR_OUT_OF_MEMORY,
+ LAP_ERR_BUSY. Cost: some microseconds.
+ */
+int32_t lap_complex_vertex_exact(struct lap_context *context,
+                                 const struct lap_complex *complex,
+                                 int32_t vertex,
+                                 const char **x,
+                                 const char **y,
+                                 const char **z);
+
+/*
+ The exact volume of a cell as a canonical string, "num/den" or "num" for an integer, in decimal.
+
+ volume: valid until the next call with this context.
+
+ Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BAD_ARGUMENT for a cell that is not there, LAP_ERR_OUT_OF_MEMORY,
+ LAP_ERR_BUSY. Cost: an exact sum over the cell's faces; the string grows with the number of planes that
+ bound the cell.
+ */
+int32_t lap_complex_cell_volume_exact(struct lap_context *context,
+                                      const struct lap_complex *complex,
+                                      int32_t cell,
+                                      const char **volume);
+
+#ifdef __cplusplus
+}  // extern "C"
+#endif  // __cplusplus
+
+#endif  /* LAPIDARY_H */
