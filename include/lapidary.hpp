@@ -1,0 +1,592 @@
+/*
+ * Lapidary for C++17: thin RAII over lapidary.h, which is the manual. Handles free themselves, statuses become exceptions,
+ * arrays become views. Nothing is copied: a view is valid as long as the handle that it came from (strings are copied).
+ *
+ *   lapidary::context context;
+ *   lapidary::mesh mesh(context, xyz, indices);
+ *   lapidary::cut cut(context, mesh, planes);
+ *   for (double volume : cut.complex().cell_moments().volumes) ...
+ */
+#ifndef LAPIDARY_HPP
+#define LAPIDARY_HPP
+
+#include "lapidary.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace lapidary {
+
+/* A borrowed array. */
+template <class T>
+struct view {
+    const T *data = nullptr;
+    std::int64_t count = 0;
+
+    const T *begin() const { return data; }
+    const T *end() const { return count == 0 ? data : data + count; }
+    std::int64_t size() const { return count; }
+    bool empty() const { return count == 0; }
+    const T &operator[](std::int64_t i) const { return data[i]; }
+};
+
+/* A borrowed array of groups of N numbers. */
+template <class T, int N>
+struct groups {
+    const T *data = nullptr;
+    std::int64_t count = 0;
+
+    std::int64_t size() const { return count; }
+    const T *operator[](std::int64_t i) const { return data + N * i; }
+    view<T> flat() const { return {data, N * count}; }
+};
+
+/* Borrowed rows of varying length: row i is items[offsets[i]] up to, not including, items[offsets[i + 1]]. */
+template <class T>
+struct rows {
+    const std::int32_t *offsets = nullptr;
+    const T *items = nullptr;
+    std::int64_t count = 0;
+
+    std::int64_t size() const { return count; }
+    view<T> operator[](std::int64_t i) const
+    {
+        return {items == nullptr ? nullptr : items + offsets[i], offsets[i + 1] - offsets[i]};
+    }
+};
+
+/* What is wrong with an input element: LAP_DEFECT_*, and the elements as it says (-1 where unused). */
+struct defect {
+    std::int32_t kind;
+    std::array<std::int64_t, 3> ids;
+};
+
+inline std::string status_name(std::int32_t status)
+{
+    const char *name = "";
+    lap_status_name(status, &name);
+    return name;
+}
+
+inline std::string defect_name(std::int32_t kind)
+{
+    const char *name = "";
+    lap_defect_name(kind, &name);
+    return name;
+}
+
+inline std::string version()
+{
+    const char *text = "";
+    lap_version(nullptr, nullptr, nullptr, &text);
+    return text;
+}
+
+/* A status that is not LAP_OK, with its message and all defects. */
+class error : public std::runtime_error {
+public:
+    error(std::int32_t status, const std::string &message, std::vector<defect> defects = {})
+        : std::runtime_error(status_name(status) + (message.empty() ? "" : ": " + message)), status_(status),
+          defects_(std::move(defects))
+    {
+    }
+    std::int32_t status() const { return status_; }
+    const std::vector<defect> &defects() const { return defects_; }
+
+private:
+    std::int32_t status_;
+    std::vector<defect> defects_;
+};
+
+/* For calls without a context. */
+inline void check(std::int32_t status)
+{
+    if (status != LAP_OK) throw error(status, "");
+}
+
+/* Threads, callbacks, the last error, predicate counters. One thread uses a context at a time. */
+class context {
+public:
+    /* Return false to cancel. */
+    using progress = std::function<bool(const char *stage, double fraction)>;
+    using log = std::function<void(std::int32_t level, const char *message)>;
+
+    struct counter {
+        std::string name;
+        std::int64_t value;
+    };
+
+    explicit context(std::int32_t threads = 1)
+    {
+        lap_context *made = nullptr;
+        check(lap_context_new(&made));
+        handle_.reset(made);
+        set_threads(threads);
+    }
+
+    void set_threads(std::int32_t threads) { run(lap_context_set_threads(get(), threads)); }
+    std::int32_t threads() const
+    {
+        std::int32_t threads = 0;
+        check(lap_context_threads(get(), &threads));
+        return threads;
+    }
+
+    /* An exception that a callback throws cancels the call (a log callback's: is kept until then) and leaves it. */
+    void set_progress(progress callback)
+    {
+        calls_->on_progress = std::move(callback);
+        set_callbacks();
+    }
+    void set_log(log callback)
+    {
+        calls_->on_log = std::move(callback);
+        set_callbacks();
+    }
+
+    void enable_counters(bool on = true) { check(lap_context_counters_enable(get(), on ? 1 : 0)); }
+    void reset_counters() { check(lap_context_counters_reset(get())); }
+    std::vector<counter> counters() const
+    {
+        std::int32_t count = 0;
+        check(lap_context_counters_count(get(), &count));
+        std::vector<counter> all;
+        for (std::int32_t i = 0; i < count; ++i) {
+            const char *name = "";
+            std::int64_t value = 0;
+            check(lap_context_counter(get(), i, &name, &value));
+            all.push_back({name, value});
+        }
+        return all;
+    }
+
+    /* Throws what the context says about the call that ended with this status. */
+    void run(std::int32_t status) const
+    {
+        if (std::exception_ptr thrown = std::exchange(calls_->thrown, nullptr)) std::rethrow_exception(thrown);
+        if (status == LAP_OK) return;
+        const char *message = "";
+        std::int64_t count = 0;
+        const std::int32_t *kinds = nullptr;
+        const std::int64_t *ids = nullptr;
+        std::vector<defect> defects;
+        if (status != LAP_ERR_BUSY) {
+            lap_context_last_error(get(), nullptr, &message);
+            lap_context_last_defects(get(), &count, &kinds, &ids);
+        }
+        for (std::int64_t i = 0; i < count; ++i) {
+            defects.push_back({kinds[i], {ids[3 * i], ids[3 * i + 1], ids[3 * i + 2]}});
+        }
+        throw error(status, message, std::move(defects));
+    }
+
+    lap_context *get() const { return handle_.get(); }
+
+private:
+    struct free_it {
+        void operator()(lap_context *handle) const { lap_context_free(handle); }
+    };
+    /* At an address of its own, so that a context can be moved. */
+    struct calls {
+        progress on_progress;
+        log on_log;
+        std::exception_ptr thrown;
+    };
+
+    void set_callbacks()
+    {
+        run(lap_context_set_progress(get(), calls_->on_progress || calls_->on_log ? &call_progress : nullptr, calls_.get()));
+        run(lap_context_set_log(get(), calls_->on_log ? &call_log : nullptr, calls_.get()));
+    }
+    static std::int32_t call_progress(void *user, const char *stage, double fraction)
+    {
+        calls *to = static_cast<calls *>(user);
+        if (to->thrown) return 1;
+        try {
+            return !to->on_progress || to->on_progress(stage, fraction) ? 0 : 1;
+        } catch (...) {
+            to->thrown = std::current_exception();
+            return 1;
+        }
+    }
+    static void call_log(void *user, std::int32_t level, const char *message)
+    {
+        calls *to = static_cast<calls *>(user);
+        if (to->thrown) return;
+        try {
+            to->on_log(level, message);
+        } catch (...) {
+            to->thrown = std::current_exception();
+        }
+    }
+
+    std::unique_ptr<calls> calls_ = std::make_unique<calls>();
+    std::unique_ptr<lap_context, free_it> handle_;
+};
+
+inline lap_mesh_options mesh_options()
+{
+    lap_mesh_options options;
+    check(lap_mesh_options_init(&options, static_cast<std::int32_t>(sizeof options)));
+    return options;
+}
+
+inline lap_cut_options cut_options()
+{
+    lap_cut_options options;
+    check(lap_cut_options_init(&options, static_cast<std::int32_t>(sizeof options)));
+    return options;
+}
+
+/* A closed triangle mesh that bounds a solid. */
+class mesh {
+public:
+    struct counts_t {
+        std::int64_t vertices, triangles, edges, components, shells;
+    };
+    struct vertices_t {
+        groups<double, 3> xyz;
+        view<std::int32_t> sources;
+    };
+    struct triangles_t {
+        groups<std::int32_t, 3> vertices;
+        view<std::int32_t> tags;
+    };
+
+    /* xyz: three per vertex; indices: three per triangle; tags: one per triangle, or none. */
+    mesh(context &with, const std::vector<double> &xyz, const std::vector<std::int32_t> &indices,
+         const std::vector<std::int32_t> &tags = {}, const lap_mesh_options &options = mesh_options())
+    {
+        if (xyz.size() % 3 != 0) throw error(LAP_ERR_BAD_ARGUMENT, "xyz does not hold three numbers per vertex");
+        if (indices.size() % 3 != 0) throw error(LAP_ERR_BAD_ARGUMENT, "indices does not hold three numbers per triangle");
+        if (!tags.empty() && tags.size() != indices.size() / 3) {
+            throw error(LAP_ERR_BAD_ARGUMENT, "tags does not hold one number per triangle");
+        }
+        lap_mesh *made = nullptr;
+        const std::int32_t status = lap_mesh_new(
+            with.get(), static_cast<std::int64_t>(xyz.size() / 3), xyz.data(), static_cast<std::int64_t>(indices.size() / 3),
+            indices.data(), tags.empty() ? nullptr : tags.data(), &options, &made);
+        handle_.reset(made);
+        with.run(status);
+    }
+
+    counts_t counts() const
+    {
+        counts_t n{};
+        check(lap_mesh_counts(get(), &n.vertices, &n.triangles, &n.edges, &n.components, &n.shells));
+        return n;
+    }
+    vertices_t vertices() const
+    {
+        vertices_t v;
+        check(lap_mesh_vertices(get(), &v.xyz.count, &v.xyz.data, &v.sources.data));
+        v.sources.count = v.xyz.count;
+        return v;
+    }
+    triangles_t triangles() const
+    {
+        triangles_t t;
+        check(lap_mesh_triangles(get(), &t.vertices.count, &t.vertices.data, &t.tags.data));
+        t.tags.count = t.tags.data == nullptr ? 0 : t.vertices.count;
+        return t;
+    }
+    /* Lowest x, y, z and highest x, y, z. */
+    view<double> bounds() const
+    {
+        view<double> bounds{nullptr, 6};
+        check(lap_mesh_bounds(get(), &bounds.data));
+        return bounds;
+    }
+    double volume() const
+    {
+        double volume = 0;
+        check(lap_mesh_volume(get(), &volume));
+        return volume;
+    }
+    std::string exact_volume(context &with) const
+    {
+        const char *volume = "";
+        with.run(lap_mesh_volume_exact(with.get(), get(), &volume));
+        return volume;
+    }
+    std::int64_t euler() const
+    {
+        std::int64_t euler = 0;
+        check(lap_mesh_euler(get(), &euler));
+        return euler;
+    }
+
+    const lap_mesh *get() const { return handle_.get(); }
+
+private:
+    struct free_it {
+        void operator()(lap_mesh *handle) const { lap_mesh_free(handle); }
+    };
+    std::unique_ptr<lap_mesh, free_it> handle_;
+};
+
+/* Vertices, edges, faces and cells; borrowed from the handle that has it. */
+class complex {
+public:
+    struct counts_t {
+        std::int64_t vertices, edges, faces, cells, loops, corners, shells;
+    };
+    struct origins_t {
+        view<std::int32_t> kinds;
+        groups<std::int32_t, 3> ids;
+    };
+    struct faces_t {
+        view<std::int32_t> face_loops, loop_corners, corner_vertices, corner_edges;
+    };
+    struct supports_t {
+        view<std::int32_t> kinds, ids, planes, tags;
+    };
+    struct cells_t {
+        view<std::int32_t> cell_shells, shell_faces, half_faces;
+
+        /* The half-faces of all the shells of a cell. */
+        view<std::int32_t> of(std::int64_t cell) const
+        {
+            const std::int32_t from = shell_faces[cell_shells[cell]];
+            return {half_faces.data + from, shell_faces[cell_shells[cell + 1]] - from};
+        }
+    };
+    struct cell_moments_t {
+        view<double> volumes;
+        groups<double, 3> centroids;
+        view<std::uint8_t> flags;
+    };
+    struct face_moments_t {
+        groups<double, 3> area_vectors, centroids;
+        view<std::uint8_t> flags;
+    };
+    struct polygons_t {
+        rows<std::int32_t> vertices;
+        view<std::int32_t> faces;
+    };
+    struct euler_t {
+        std::int64_t output, input;
+    };
+
+    explicit complex(const lap_complex *borrowed) : handle_(borrowed) {}
+
+    counts_t counts() const
+    {
+        counts_t n{};
+        check(lap_complex_counts(get(), &n.vertices, &n.edges, &n.faces, &n.cells, &n.loops, &n.corners, &n.shells));
+        return n;
+    }
+    groups<double, 3> vertices() const
+    {
+        groups<double, 3> v;
+        check(lap_complex_vertices(get(), &v.count, &v.data));
+        return v;
+    }
+    origins_t vertex_origins() const
+    {
+        origins_t o;
+        check(lap_complex_vertex_origins(get(), &o.kinds.count, &o.kinds.data, &o.ids.data));
+        o.ids.count = o.kinds.count;
+        return o;
+    }
+    rows<std::int32_t> vertex_planes() const
+    {
+        rows<std::int32_t> r;
+        check(lap_complex_vertex_planes(get(), &r.count, &r.offsets, &r.items));
+        return r;
+    }
+    groups<std::int32_t, 2> edges() const
+    {
+        groups<std::int32_t, 2> e;
+        check(lap_complex_edges(get(), &e.count, &e.data));
+        return e;
+    }
+    faces_t faces() const
+    {
+        const counts_t n = counts();
+        faces_t f;
+        check(lap_complex_faces(get(), nullptr, &f.face_loops.data, &f.loop_corners.data, &f.corner_vertices.data,
+                                &f.corner_edges.data));
+        f.face_loops.count = n.faces + 1;
+        f.loop_corners.count = n.loops + 1;
+        f.corner_vertices.count = f.corner_edges.count = n.corners;
+        return f;
+    }
+    supports_t face_supports() const
+    {
+        supports_t s;
+        check(lap_complex_face_supports(get(), &s.kinds.count, &s.kinds.data, &s.ids.data, &s.planes.data, &s.tags.data));
+        s.ids.count = s.planes.count = s.tags.count = s.kinds.count;
+        return s;
+    }
+    /* Owner and neighbour of each face. */
+    groups<std::int32_t, 2> face_cells() const
+    {
+        groups<std::int32_t, 2> c;
+        check(lap_complex_face_cells(get(), &c.count, &c.data));
+        return c;
+    }
+    cells_t cells() const
+    {
+        const counts_t n = counts();
+        cells_t c;
+        check(lap_complex_cells(get(), nullptr, &c.cell_shells.data, &c.shell_faces.data, &c.half_faces.data));
+        c.cell_shells.count = n.cells + 1;
+        c.shell_faces.count = n.shells + 1;
+        c.half_faces.count = c.shell_faces[n.shells];
+        return c;
+    }
+    view<std::int32_t> cell_components() const
+    {
+        view<std::int32_t> c;
+        check(lap_complex_cell_components(get(), &c.count, &c.data));
+        return c;
+    }
+    /* 1 or -1. */
+    std::int32_t cell_side(std::int32_t cell, std::int32_t plane) const
+    {
+        std::int32_t side = 0;
+        check(lap_complex_cell_side(get(), cell, plane, &side));
+        return side;
+    }
+
+    cell_moments_t cell_moments() const
+    {
+        cell_moments_t m;
+        check(lap_complex_cell_moments(get(), &m.volumes.count, &m.volumes.data, &m.centroids.data, &m.flags.data));
+        m.centroids.count = m.flags.count = m.volumes.count;
+        return m;
+    }
+    face_moments_t face_moments() const
+    {
+        face_moments_t m;
+        check(lap_complex_face_moments(get(), &m.flags.count, &m.area_vectors.data, &m.centroids.data, &m.flags.data));
+        m.area_vectors.count = m.centroids.count = m.flags.count;
+        return m;
+    }
+    /* style: LAP_FACES_* */
+    polygons_t polygons(std::int32_t style) const
+    {
+        polygons_t p;
+        check(lap_complex_polygons(get(), style, &p.vertices.count, &p.vertices.offsets, &p.vertices.items, &p.faces.data));
+        p.faces.count = p.vertices.count;
+        return p;
+    }
+    /* [2 * corner + side] */
+    view<std::int32_t> adjacency() const
+    {
+        view<std::int32_t> a;
+        check(lap_complex_adjacency(get(), &a.count, &a.data));
+        a.count *= 2;
+        return a;
+    }
+    euler_t euler() const
+    {
+        euler_t e{};
+        check(lap_complex_euler(get(), &e.output, &e.input));
+        return e;
+    }
+    void check_consistency(context &with) const { with.run(lap_complex_check(with.get(), get())); }
+    std::array<std::string, 3> exact_vertex(context &with, std::int32_t vertex) const
+    {
+        const char *x = "", *y = "", *z = "";
+        with.run(lap_complex_vertex_exact(with.get(), get(), vertex, &x, &y, &z));
+        return {x, y, z};
+    }
+    std::string exact_cell_volume(context &with, std::int32_t cell) const
+    {
+        const char *volume = "";
+        with.run(lap_complex_cell_volume_exact(with.get(), get(), cell, &volume));
+        return volume;
+    }
+
+    const lap_complex *get() const { return handle_; }
+
+private:
+    const lap_complex *handle_;
+};
+
+/* The cells into which planes divide a solid. */
+class cut {
+public:
+    struct stage {
+        std::string name;
+        double seconds;
+    };
+    struct statistic {
+        std::string name;
+        std::int64_t value;
+    };
+
+    /* planes: four per plane, a, b, c, d for a x + b y + c z + d = 0. */
+    cut(context &with, const mesh &solid, const std::vector<double> &planes,
+        const lap_cut_options &options = cut_options())
+    {
+        if (planes.size() % 4 != 0) throw error(LAP_ERR_BAD_ARGUMENT, "planes does not hold four numbers per plane");
+        lap_cut *made = nullptr;
+        const std::int32_t status = lap_cut_new(with.get(), solid.get(), static_cast<std::int64_t>(planes.size() / 4),
+                                                planes.data(), &options, &made);
+        handle_.reset(made);
+        with.run(status);
+    }
+
+    /* Borrowed from this cut. */
+    class complex complex() const
+    {
+        const lap_complex *borrowed = nullptr;
+        check(lap_cut_complex(get(), &borrowed));
+        return lapidary::complex(borrowed);
+    }
+    view<std::int32_t> plane_map() const
+    {
+        view<std::int32_t> m;
+        check(lap_cut_plane_map(get(), &m.count, &m.data));
+        return m;
+    }
+    std::vector<stage> stages() const
+    {
+        std::int32_t count = 0;
+        check(lap_cut_stage_count(get(), &count));
+        std::vector<stage> all;
+        for (std::int32_t i = 0; i < count; ++i) {
+            const char *name = "";
+            double seconds = 0;
+            check(lap_cut_stage(get(), i, &name, &seconds));
+            all.push_back({name, seconds});
+        }
+        return all;
+    }
+    std::vector<statistic> statistics() const
+    {
+        std::int32_t count = 0;
+        check(lap_cut_statistic_count(get(), &count));
+        std::vector<statistic> all;
+        for (std::int32_t i = 0; i < count; ++i) {
+            const char *name = "";
+            std::int64_t value = 0;
+            check(lap_cut_statistic(get(), i, &name, &value));
+            all.push_back({name, value});
+        }
+        return all;
+    }
+
+    const lap_cut *get() const { return handle_.get(); }
+
+private:
+    struct free_it {
+        void operator()(lap_cut *handle) const { lap_cut_free(handle); }
+    };
+    std::unique_ptr<lap_cut, free_it> handle_;
+};
+
+} // namespace lapidary
+
+#endif /* LAPIDARY_HPP */
