@@ -5,6 +5,7 @@ pub mod csr;
 pub mod error;
 pub mod ids;
 pub mod run;
+pub mod union_find;
 
 pub use csr::Csr;
 pub use error::{Culprit, DefectKind, Error, Result, Status};

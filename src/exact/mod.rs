@@ -7,6 +7,7 @@
 pub mod big;
 pub mod bounded;
 pub mod counters;
+pub mod cyclic;
 pub mod double_double;
 pub mod filter;
 pub mod fixed;

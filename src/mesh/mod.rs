@@ -1,6 +1,19 @@
 //! The input: a closed triangle mesh from flat arrays, its adjacency, its defects by name, its shells and how
 //! they nest.
 
+pub mod build;
+pub mod bvh;
+pub mod edges;
+pub mod nesting;
+pub mod projection;
+pub mod ray;
+pub mod self_intersection;
+pub mod shells;
+pub mod validate;
+pub mod volume;
+
+pub use build::{MeshInput, MeshOptions, build};
+
 use crate::base::{ComponentId, Csr, EdgeId, ShellId, TriangleId, VertexId};
 
 /// One use of an edge by a triangle: the triangle, which of its sides (side k joins corners k and k+1), and
@@ -41,11 +54,13 @@ pub struct Shell {
 }
 
 /// The segment from a void's wall through solid to the first surface it meets: from the point of `from` with
-/// barycentric weights 1 : k : k² (over its three corners in order), along `axis` in direction `positive`, to the
-/// interior of triangle `hit`.
+/// barycentric weights 1 : k : k² over its corners `order[0]`, `order[1]`, `order[2]`, along `axis` in direction
+/// `positive`, to the interior of triangle `hit`. Anchors form a tree: from void to void they lead to an outer shell.
 #[derive(Clone, Copy, Debug)]
 pub struct Anchor {
     pub from: TriangleId,
+    /// Nearly always 0, 1, 2.
+    pub order: [u8; 3],
     pub k: u32,
     pub axis: usize,
     pub positive: bool,

@@ -1,0 +1,155 @@
+//! Exact self-intersection: any contact of two triangles other than a vertex or an edge that they share by index.
+//!
+//! Candidate pairs come from the box hierarchy. What a pair shares by index decides what is left to ask:
+//! all three corners: they coincide; an edge: they meet elsewhere only if they lie in one plane, folded onto each other; a
+//! vertex: a further contact reaches the side opposite to it in one of the two; nothing: any contact reaches a side of one
+//! of them. So everything is "does a closed segment meet a closed triangle", from `orient3d` signs, and in one plane
+//! from turns.
+//!
+//! Triangles are not degenerate and coordinates finite. Touching counts: at a point, along an edge, in an area.
+//!
+//! Cost: the pairs whose boxes meet, some twelve per triangle for an ordinary mesh, two or three signs each.
+
+use super::bvh::Bvh;
+use super::projection::{open_axis, turn};
+use crate::base::{TriangleId, VertexId};
+use crate::exact::{Sign, orient3d};
+
+type Corners = [[f64; 3]; 3];
+
+/// The pairs of triangles in contact, lower id first, sorted. Stops at `limit` pairs (which ones is fixed by the input, but
+/// they need not be the lowest).
+pub fn self_intersections(
+    vertices: &[[f64; 3]],
+    triangles: &[[VertexId; 3]],
+    bvh: &Bvh,
+    limit: usize,
+) -> Vec<[TriangleId; 2]> {
+    let mut found = Vec::new();
+    if limit == 0 {
+        return found;
+    }
+    bvh.meeting_pairs(|a, b| {
+        if contact(vertices, &triangles[a.at()], &triangles[b.at()]) {
+            found.push([a.min(b), a.max(b)]);
+        }
+        found.len() < limit
+    });
+    found.sort_unstable();
+    found
+}
+
+/// Whether two triangles meet outside what they share by index.
+pub fn contact(vertices: &[[f64; 3]], p: &[VertexId; 3], q: &[VertexId; 3]) -> bool {
+    // Rotate each so that shared corners come first.
+    let in_q = p.map(|v| q.contains(&v));
+    let at =
+        |t: &[VertexId; 3], start: usize| -> Corners { std::array::from_fn(|i| vertices[t[(start + i) % 3].at()]) };
+    match in_q.iter().filter(|s| **s).count() {
+        0 => disjoint_by_index(&at(p, 0), &at(q, 0)),
+        1 => {
+            let i = in_q.iter().position(|s| *s).unwrap_or(0);
+            let j = q.iter().position(|v| *v == p[i]).unwrap_or(0);
+            sharing_a_vertex(&at(p, i), &at(q, j))
+        }
+        2 => {
+            let i = in_q.iter().position(|s| !*s).unwrap_or(0);
+            let j = q.iter().position(|v| !p.contains(v)).unwrap_or(0);
+            folded(&at(p, i), &vertices[q[j].at()])
+        }
+        _ => true,
+    }
+}
+
+/// Apexes t[0] and `other` over the edge t[1], t[2]: in one plane and on the same side of the edge.
+fn folded(t: &Corners, other: &[f64; 3]) -> bool {
+    if orient3d(&t[0], &t[1], &t[2], other) != Sign::Zero {
+        return false;
+    }
+    let (axis, sign) = open_axis(t);
+    turn(&t[1], &t[2], other, axis) == sign
+}
+
+/// The two share corner 0.
+fn sharing_a_vertex(p: &Corners, q: &Corners) -> bool {
+    let of_p = [orient3d(&q[0], &q[1], &q[2], &p[1]), orient3d(&q[0], &q[1], &q[2], &p[2])];
+    if of_p[0] == of_p[1] && of_p[0] != Sign::Zero {
+        return false;
+    }
+    if segment_meets([&p[1], &p[2]], of_p, q) {
+        return true;
+    }
+    let of_q = [orient3d(&p[0], &p[1], &p[2], &q[1]), orient3d(&p[0], &p[1], &p[2], &q[2])];
+    segment_meets([&q[1], &q[2]], of_q, p)
+}
+
+fn disjoint_by_index(p: &Corners, q: &Corners) -> bool {
+    let of_p: [Sign; 3] = std::array::from_fn(|i| orient3d(&q[0], &q[1], &q[2], &p[i]));
+    if one_sided(&of_p) {
+        return false;
+    }
+    let of_q: [Sign; 3] = std::array::from_fn(|i| orient3d(&p[0], &p[1], &p[2], &q[i]));
+    if one_sided(&of_q) {
+        return false;
+    }
+    if of_p == [Sign::Zero; 3] {
+        return coplanar_meet(p, q);
+    }
+    (0..3).any(|i| {
+        let j = (i + 1) % 3;
+        segment_meets([&p[i], &p[j]], [of_p[i], of_p[j]], q) || segment_meets([&q[i], &q[j]], [of_q[i], of_q[j]], p)
+    })
+}
+
+/// All strictly on one side.
+fn one_sided(s: &[Sign; 3]) -> bool {
+    s[0] != Sign::Zero && s[0] == s[1] && s[0] == s[2]
+}
+
+/// Whether a closed segment meets a closed triangle. `side` are its ends' sides of the triangle's plane.
+fn segment_meets(segment: [&[f64; 3]; 2], side: [Sign; 2], t: &Corners) -> bool {
+    if side[0] == side[1] {
+        return side[0] == Sign::Zero && coplanar_segment_meets(segment, t);
+    }
+    // The segment's line meets the plane in one point, and that point is on the segment. It is outside the triangle when
+    // the line passes two sides in opposite turns.
+    let [a, b] = segment;
+    let mut seen = Sign::Zero;
+    for i in 0..3 {
+        let s = orient3d(a, b, &t[i], &t[(i + 1) % 3]);
+        if s == Sign::Zero {
+            continue;
+        }
+        if seen == Sign::Zero {
+            seen = s;
+        } else if seen != s {
+            return false;
+        }
+    }
+    true
+}
+
+/// The same in the triangle's plane: a triangle and a segment are disjoint exactly when the line of one of the triangle's
+/// sides, or of the segment, separates them strictly (these are the normals of their Minkowski difference).
+fn coplanar_segment_meets(segment: [&[f64; 3]; 2], t: &Corners) -> bool {
+    let (axis, inside) = open_axis(t);
+    let [a, b] = segment;
+    for i in 0..3 {
+        let j = (i + 1) % 3;
+        if turn(&t[i], &t[j], a, axis) == -inside && turn(&t[i], &t[j], b, axis) == -inside {
+            return false;
+        }
+    }
+    let sides: [Sign; 3] = std::array::from_fn(|i| turn(a, b, &t[i], axis));
+    !one_sided(&sides)
+}
+
+/// Two triangles in one plane: disjoint exactly when a side of one separates them strictly.
+fn coplanar_meet(p: &Corners, q: &Corners) -> bool {
+    let (axis, of_p) = open_axis(p);
+    let of_q = turn(&q[0], &q[1], &q[2], axis);
+    let separates = |s: &Corners, inside: Sign, t: &Corners| {
+        (0..3).any(|i| t.iter().all(|x| turn(&s[i], &s[(i + 1) % 3], x, axis) == -inside))
+    };
+    !separates(p, of_p, q) && !separates(q, of_q, p)
+}
