@@ -2,5 +2,9 @@
 //! from faces to nested cells and from there to the arrays that a host reads.
 
 pub mod data;
+pub mod locate;
+pub mod loops;
+pub mod radial;
+pub mod shells;
 
 pub use data::{Complex, HalfFace, Origin, SupportId};

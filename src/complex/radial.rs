@@ -1,0 +1,158 @@
+//! Radial order of faces around an edge → which half-faces bound the same wedge.
+//!
+//! Around edge w (from its first vertex to its second), a face with normal N that walks the edge forward lies in the half-plane
+//! N × w, backward in −N × w; turning counter-clockwise about w, a forward face is met on its back and left on its front.
+//! So between neighbours in the cycle lies one wedge: of the half-face on the one's far side and the half-face on the other's near side.
+//!
+//! The order is known without arithmetic for an edge of the surface alone (two faces), and for one plane's face between two
+//! faces of the surface (solid wedges run from a backward to a forward surface face). Otherwise the turn between two faces is the sign of
+//! w·(N×M). Both factors are parallel, so one coordinate axis tells: the sign of w there (exact order of the
+//! edge's ends) times the sign of (N×M) there (a 3×3 determinant of input normals). No constructed direction is read.
+//!
+//! Two faces in one half-plane would be one face: they occur only where the input intersects itself.
+
+use super::{Complex, HalfFace, SupportId};
+use crate::base::{Csr, EdgeId, Error, FaceId, Result, VertexId};
+use crate::exact::{self, Direction, Sign, counters, sort_cyclic};
+use std::cmp::Ordering;
+
+/// One walk of a face along an edge.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub struct FaceUse {
+    pub face: FaceId,
+    pub forward: bool,
+    /// The corner of the face from which the edge is walked.
+    pub corner: u32,
+}
+
+impl FaceUse {
+    /// The half-face on the counter-clockwise side.
+    fn far(self) -> HalfFace {
+        HalfFace::new(self.face, self.forward)
+    }
+    /// The half-face on the clockwise side.
+    fn near(self) -> HalfFace {
+        HalfFace::new(self.face, !self.forward)
+    }
+}
+
+/// The uses of every edge, by rising corner.
+pub fn edge_uses(c: &Complex) -> Csr<FaceUse> {
+    let uses = (0..c.face_count()).flat_map(|f| {
+        let face = FaceId::of(f);
+        c.loops_of(face).flat_map(move |l| {
+            let range = c.corners_of(l);
+            range.filter(|&k| c.corner_edges[k].is_some()).map(move |k| {
+                let edge = c.corner_edges[k];
+                let forward = c.edges[edge.at()][0] == c.corner_vertices[k];
+                (edge.at(), FaceUse { face, forward, corner: k as u32 })
+            })
+        })
+    });
+    Csr::from_pairs(c.edge_count(), uses)
+}
+
+fn on_surface(c: &Complex, u: FaceUse) -> bool {
+    matches!(c.face_support[u.face.at()], SupportId::Triangle(_))
+}
+
+/// Calls `pair(i, hi, j, hj)` for each wedge around an edge that is inside: the uses `i` and `j` that bound it and their half-faces.
+pub fn wedge_pairs(
+    c: &Complex,
+    edge: EdgeId,
+    uses: &[FaceUse],
+    scratch: &mut Vec<u32>,
+    mut pair: impl FnMut(u32, HalfFace, u32, HalfFace),
+) -> Result<()> {
+    if let [a, b] = *uses
+        && a.forward != b.forward
+        && on_surface(c, a)
+        && on_surface(c, b)
+    {
+        counters::count_topology(counters::Predicate::RadialOrder);
+        pair(0, HalfFace::new(a.face, false), 1, HalfFace::new(b.face, false));
+        return Ok(());
+    }
+    if uses.len() == 3
+        && let Some(p) = (0..3).find(|&i| !on_surface(c, uses[i]))
+    {
+        let (i, j) = ((p + 1) % 3, (p + 2) % 3);
+        if on_surface(c, uses[i]) && on_surface(c, uses[j]) && uses[i].forward != uses[j].forward {
+            counters::count_topology(counters::Predicate::RadialOrder);
+            let (forward, backward) = if uses[i].forward { (i, j) } else { (j, i) };
+            pair(backward as u32, uses[backward].far(), p as u32, uses[p].near());
+            pair(p as u32, uses[p].far(), forward as u32, uses[forward].near());
+            return Ok(());
+        }
+    }
+    scratch.clear();
+    scratch.extend(0..uses.len() as u32);
+    let Some((axis, along)) = edge_axis(c, edge) else { return Err(contradiction(edge)) };
+    let normal = |i: u32| face_normal(c, uses[i as usize].face);
+    let mut unit = [0.0; 3];
+    unit[axis] = 1.0;
+    let unit = Direction::Plane(unit);
+    let same = |i: u32, j: u32| uses[i as usize].forward == uses[j as usize].forward;
+    let support = |i: u32| c.face_support[uses[i as usize].face.at()];
+    sort_cyclic(
+        scratch,
+        |&i, &j| {
+            if support(i) == support(j) {
+                return Sign::Zero;
+            }
+            let sign = exact::determinant(&normal(i), &normal(j), &unit);
+            if same(i, j) == along { sign } else { -sign }
+        },
+        |&i, &j| {
+            if support(i) == support(j) {
+                return !same(i, j);
+            }
+            let sign = exact::dot(&normal(i), &normal(j));
+            (sign == Sign::Positive) != same(i, j)
+        },
+    );
+    for (k, &i) in scratch.iter().enumerate() {
+        let j = scratch[if k + 1 == scratch.len() { 0 } else { k + 1 }];
+        let (from, to) = (uses[i as usize], uses[j as usize]);
+        // Before a surface face is the outside of the solid.
+        let from_inside = !(on_surface(c, from) && from.far().front());
+        let to_inside = !(on_surface(c, to) && to.near().front());
+        match (from_inside, to_inside) {
+            (true, true) => pair(i, from.far(), j, to.near()),
+            (false, false) => {}
+            _ => return Err(contradiction(edge)),
+        }
+    }
+    Ok(())
+}
+
+fn contradiction(edge: EdgeId) -> Error {
+    Error::inconsistent(format!(
+        "faces around edge {} do not alternate between inside and outside: the surface intersects itself",
+        edge.0
+    ))
+}
+
+/// The normal of a face's support.
+pub fn face_normal(c: &Complex, f: FaceId) -> Direction {
+    match c.face_support[f.at()] {
+        SupportId::Triangle(t) => Direction::Triangle(c.mesh.corners(t)),
+        SupportId::Plane(p) => Direction::Plane(c.planes[p.at()].n),
+    }
+}
+
+/// An axis in which the edge's ends differ, and whether the coordinate rises along the edge.
+fn edge_axis(c: &Complex, edge: EdgeId) -> Option<(usize, bool)> {
+    let [a, b] = c.edges[edge.at()];
+    let (xa, xb) = (&c.coords[a.at()], &c.coords[b.at()]);
+    // Rounding is monotone: coordinates that differ rounded differ exactly, the same way.
+    let best = (0..3).max_by(|&i, &j| (xa[i] - xb[i]).abs().total_cmp(&(xa[j] - xb[j]).abs())).unwrap();
+    if xa[best] != xb[best] {
+        return Some((best, xa[best] < xb[best]));
+    }
+    let point = |v: VertexId| c.point(v);
+    (0..3).find_map(|axis| match exact::compare_coordinate(&point(a), &point(b), axis) {
+        Ordering::Equal => None,
+        order => Some((axis, order == Ordering::Less)),
+    })
+}

@@ -1,0 +1,143 @@
+//! Cut: a closed triangle mesh by planes into the cells between them (the TopoCut paper, DESIGN §4).
+//!
+//! Stages in pipeline order: [`classify`] → [`edges`] → [`triangles`] → [`sections`] and [`lines`] → [`faces`] →
+//! [`assemble`] → shells and cells (`complex::shells`) → [`voids`].
+
+pub mod assemble;
+pub mod bodies;
+pub mod classify;
+pub mod edges;
+pub mod faces;
+pub mod lines;
+pub mod sections;
+pub mod surface;
+pub mod triangles;
+pub mod voids;
+
+use crate::base::{Culprit, DefectKind, Error, PlaneId, Result, Run, Status};
+use crate::complex::{Complex, Origin, shells};
+use crate::exact::{self, Plane};
+use crate::mesh::TriMesh;
+use rayon::prelude::*;
+use std::sync::{Arc, OnceLock};
+
+/// Nothing to choose yet.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct CutOptions {}
+
+/// The cells into which planes divide a solid.
+#[derive(Debug, Default)]
+pub struct Cut {
+    pub complex: Complex,
+    /// For each input plane the lowest plane that coincides with it.
+    pub plane_map: Vec<PlaneId>,
+    /// Seconds per stage, in order.
+    pub stages: Vec<(&'static str, f64)>,
+}
+
+/// Cuts a solid along planes. Faces, edges and vertices outside the closed solid are not built. Runs on the current rayon
+/// pool; the result does not depend on its size.
+///
+/// Errors: `BadPlane` with every plane that is not finite or has a zero normal; `TooLarge`; `Cancelled`; `Inconsistent`
+/// if the mesh intersects itself in a way that shows.
+pub fn cut(mesh: &Arc<TriMesh>, planes: &[Plane], _options: &CutOptions, run: &mut Run) -> Result<Cut> {
+    validate(planes)?;
+    run.stage("classify", 0.0)?;
+    let [low, high] = mesh.bbox;
+    let max_abs = std::array::from_fn(|i| low[i].abs().max(high[i].abs()));
+    let knives = classify::Knives::new(planes, max_abs);
+    let classified = classify::classify(mesh, &knives);
+    limit(mesh.edges.len() + classified.edge_crossings.items.len())?;
+    run.stage("edges", 0.15)?;
+    let points = edges::edge_points(mesh, &knives, &classified);
+    let first_edge_point = mesh.vertices.len() as u32;
+    let numbering = triangles::Numbering {
+        first_edge_point,
+        first_inner_point: first_edge_point + points.edge.len() as u32,
+        first_chord_piece: (mesh.edges.len() + points.edge.len()) as u32,
+    };
+    run.stage("triangles", 0.25)?;
+    let sub = triangles::subdivide(mesh, &knives, &classified, &points, numbering);
+    limit(numbering.first_inner_point as usize + sub.point_triangle.len())?;
+    limit(numbering.first_chord_piece as usize + sub.pieces.len())?;
+    run.stage("round", 0.4)?;
+    let mut origins = surface::surface_origins(mesh, &knives, &points, &sub);
+    let mut coords = mesh.vertices.clone();
+    round_from(mesh, planes, &origins, &mut coords);
+    let (surface_vertices, surface_origins, surface_coords) = (origins.len(), origins.clone(), coords.clone());
+    let surface = surface::Surface {
+        mesh,
+        knives: &knives,
+        classified: &classified,
+        points: &points,
+        sub: &sub,
+        numbering,
+        origins: &surface_origins,
+        coords: &surface_coords,
+        input_planes: planes,
+        vertex_edges: OnceLock::new(),
+    };
+    run.stage("lines", 0.5)?;
+    let contents = sections::plane_contents(&surface);
+    let (mut graphs, mut lines) = lines::sections_and_lines(&surface, &contents)?;
+    let inner = lines::number_inner(&surface, &mut lines, surface_vertices as u32);
+    limit(surface_vertices + inner.names.len())?;
+    let first_line_edge = numbering.first_chord_piece + sub.pieces.len() as u32;
+    limit(first_line_edge as usize + lines.ends.len() + lines.points.items.len())?;
+    run.stage("round inner", 0.6)?;
+    origins.extend(inner.names.iter().map(|&[p, q, r]| Origin::Planes(p, q, r)));
+    round_from(mesh, planes, &origins, &mut coords);
+    run.stage("faces", 0.65)?;
+    let all = faces::AllVertices { surface: &surface, origins: &origins, coords: &coords };
+    let has_voids = mesh.shells.iter().any(|s| !s.outer);
+    let section_faces = faces::section_faces(&all, &contents, &mut graphs, &lines, first_line_edge, has_voids)?;
+    run.stage("assemble", 0.75)?;
+    let (mut complex, first_face) =
+        assemble::assemble(mesh, &surface, &lines, &inner, &section_faces, origins.clone(), coords.clone());
+    limit(complex.corner_vertices.len())?;
+    run.stage("cells", 0.85)?;
+    let found = shells::find_shells(&complex)?;
+    run.stage("voids", 0.95)?;
+    let located = voids::Located { all: &all, sections: &graphs, faces: &section_faces, first_face: &first_face };
+    let hosts = voids::hosts(&complex, &found, &located)?;
+    shells::form_cells(&mut complex, &found, &hosts)?;
+    bodies::assign_components(&mut complex);
+    let plane_map = knives.knife_of.iter().map(|k| knives.ids[k.at()]).collect();
+    run.end_stage();
+    Ok(Cut { complex, plane_map, stages: run.take_stages() })
+}
+
+fn validate(planes: &[Plane]) -> Result<()> {
+    let mut culprits = Vec::new();
+    for (i, p) in planes.iter().enumerate() {
+        if !p.d.is_finite() || p.n.iter().any(|x| !x.is_finite()) {
+            culprits.push(Culprit::new(DefectKind::NonFinitePlane, &[i as i64]));
+        } else if p.n == [0.0; 3] {
+            culprits.push(Culprit::new(DefectKind::ZeroNormal, &[i as i64]));
+        }
+    }
+    match culprits.first() {
+        None => limit(planes.len()),
+        Some(first) => {
+            let what = if first.kind == DefectKind::ZeroNormal { "has a zero normal" } else { "is not finite" };
+            Err(Error::with(Status::BadPlane, format!("plane {} {what}", first.ids[0]), culprits.clone()))
+        }
+    }
+}
+
+/// Ids are 32-bit, and half-faces and half-edges take one bit of them.
+fn limit(count: usize) -> Result<()> {
+    if count < (i32::MAX / 2) as usize {
+        return Ok(());
+    }
+    Err(Error::new(Status::TooLarge, format!("{count} elements are more than 32-bit ids can number")))
+}
+
+/// Correctly rounded coordinates of the origins that have none yet.
+fn round_from(mesh: &TriMesh, planes: &[Plane], origins: &[Origin], coords: &mut Vec<[f64; 3]>) {
+    let start = coords.len();
+    coords.resize(origins.len(), [0.0; 3]);
+    coords[start..].par_iter_mut().with_min_len(256).zip(&origins[start..]).for_each(|(x, &origin)| {
+        *x = exact::round(&crate::complex::data::origin_point(mesh, planes, origin));
+    });
+}
