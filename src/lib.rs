@@ -3,5 +3,6 @@
 pub mod base;
 pub mod capi;
 pub mod complex;
+pub mod cut;
 pub mod exact;
 pub mod mesh;

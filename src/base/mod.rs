@@ -11,3 +11,4 @@ pub use csr::Csr;
 pub use error::{Culprit, DefectKind, Error, Result, Status};
 pub use ids::*;
 pub use run::Run;
+pub use union_find::UnionFind;

@@ -105,7 +105,7 @@ impl Complex {
     pub fn cell_count(&self) -> usize {
         self.cell_component.len()
     }
-    pub fn loops_of(&self, f: FaceId) -> impl Iterator<Item = LoopId> + use<> {
+    pub fn loops_of(&self, f: FaceId) -> impl Iterator<Item = LoopId> + Clone + use<> {
         (self.face_loops[f.at()]..self.face_loops[f.at() + 1]).map(LoopId)
     }
     #[inline(always)]

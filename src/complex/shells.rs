@@ -23,7 +23,7 @@ pub fn find_shells(c: &Complex) -> Result<Shells> {
     for e in 0..c.edge_count() {
         let row: &[FaceUse] = uses.row(e);
         wedge_pairs(c, EdgeId::of(e), row, &mut scratch, |_, a, _, b| {
-            classes.union(a.0, b.0);
+            classes.union(a.at(), b.at());
         })?;
     }
     let mut shells = Shells { of: vec![ShellId::NONE; 2 * c.face_count()], lowest: Vec::new() };
@@ -34,7 +34,7 @@ pub fn find_shells(c: &Complex) -> Result<Shells> {
                 continue;
             }
             let h = HalfFace::new(FaceId::of(f), front);
-            let root = classes.find(h.0) as usize;
+            let root = classes.find(h.at());
             // Roots are the lowest members, so a class is met first at its root.
             if shells.of[root].is_none() {
                 shells.of[root] = ShellId::of(shells.lowest.len());

@@ -72,10 +72,10 @@ impl Knives {
                 } else {
                     (knives.families.len() - 1) as u32
                 };
-                for (&id, &reversed) in family.members.iter().zip(&family.reversed) {
-                    knives.planes.push(planes[id]);
-                    knives.ids.push(PlaneId::of(id));
-                    knives.reversed.push(reversed);
+                for (&id, &along) in family.members.iter().zip(&family.along) {
+                    knives.planes.push(planes[id.at()]);
+                    knives.ids.push(id);
+                    knives.reversed.push(!along);
                     knives.family.push(number);
                 }
                 if !single {
@@ -87,9 +87,9 @@ impl Knives {
             knives.knife_of[id.at()] = KnifeId::of(i);
         }
         for (i, &representative) in grouping.representative.iter().enumerate() {
-            knives.knife_of[i] = knives.knife_of[representative];
+            knives.knife_of[i] = knives.knife_of[representative.at()];
         }
-        knives.filters = knives.planes.iter().map(|p| PlaneFilter::new(p, max_abs)).collect();
+        knives.filters = knives.planes.iter().map(|p| PlaneFilter::new(p, &max_abs)).collect();
         knives.rounded_bound = knives.planes.iter().map(|p| rounded_bound(p, max_abs)).collect();
         knives
     }

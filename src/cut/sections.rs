@@ -293,7 +293,7 @@ fn apex(surface: &Surface, u: EdgeUse) -> VertexId {
 /// triangle's apex; a wedge wider than 180 degrees is told from a narrow one only where that matters.
 fn edge_sides(surface: &Surface, e: EdgeId, knife: KnifeId) -> (bool, bool) {
     let mut mates = Vec::new();
-    mesh::wedge_mates(surface.mesh, e, &mut mates);
+    mesh::wedge_mates(surface.mesh, e, &mut Default::default(), &mut mates);
     let mut sides = [false; 2];
     for [backward, forward] in mates {
         let side_of = |u: EdgeUse| surface.classified.sides.side(surface.knives, knife, apex(surface, u));
@@ -358,7 +358,7 @@ pub fn touching_is_inside(surface: &Surface, v: VertexId, knife: KnifeId) -> boo
     }
     let Some((e, _)) = best else { return false };
     let mut mates = Vec::new();
-    mesh::wedge_mates(mesh, e, &mut mates);
+    mesh::wedge_mates(mesh, e, &mut Default::default(), &mut mates);
     mates.iter().any(|&[backward, forward]| wedge_turn(surface, e, backward, forward) == Sign::Negative)
 }
 

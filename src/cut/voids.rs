@@ -57,7 +57,7 @@ fn host_of_void(c: &Complex, shell: ShellId, located: &Located) -> Result<HalfFa
         if let Some(half_face) = follow(c, &here, located)? {
             return Ok(half_face);
         }
-        anchor = mesh::next_anchor(&c.mesh, shell, &here);
+        anchor = mesh::next_anchor(&c.mesh, &here);
     }
     Err(Error::inconsistent(format!("no solid surrounds the void at triangle {}", c.mesh.shells[shell.at()].triangle.0)))
 }
@@ -66,7 +66,7 @@ fn host_of_void(c: &Complex, shell: ShellId, located: &Located) -> Result<HalfFa
 fn follow(c: &Complex, anchor: &Anchor, located: &Located) -> Result<Option<HalfFace>> {
     let mesh = &c.mesh;
     let knives = located.all.surface.knives;
-    let start = weighted_point(mesh, anchor.from, anchor.k);
+    let start = weighted_point(mesh, anchor);
     let end = ray_end(mesh, &start, anchor);
     // The first plane on the way, as a fraction of it.
     let mut first: Option<(Rational, KnifeId)> = None;
@@ -127,10 +127,12 @@ fn value(p: &Plane, x: &[Rational; 3]) -> Rational {
     sum
 }
 
-/// The point of a triangle with weights 1 : k : k².
-fn weighted_point(mesh: &TriMesh, t: TriangleId, k: u32) -> [Rational; 3] {
-    let corners = mesh.corners(t);
-    let weights = [Rational::from(1), Rational::from(k), Rational::from(k) * Rational::from(k)];
+/// The point of an anchor's triangle with weights 1 : k : k², over the corners in the anchor's order.
+fn weighted_point(mesh: &TriMesh, anchor: &Anchor) -> [Rational; 3] {
+    let corners = mesh.corners(anchor.from);
+    let corners = anchor.order.map(|i| corners[i as usize]);
+    let k = Rational::from(anchor.k);
+    let weights = [Rational::from(1), k.clone(), k.clone() * k];
     let total: Rational = weights.iter().fold(Rational::new(), |sum, w| sum + w);
     std::array::from_fn(|i| {
         let sum = corners.iter().zip(&weights).fold(Rational::new(), |sum, (x, w)| sum + exactly(x[i]) * w);

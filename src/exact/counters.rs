@@ -35,6 +35,10 @@ predicates! {
     Orient3d = "orient3d",
     /// Turn of three symbolic points in an axis-parallel projection; order of central projections.
     Projected = "projected",
+    /// Order of planes along the line of two others.
+    PointOrder = "point_order",
+    /// Whether a loop is an outer loop or a hole.
+    LoopOrientation = "loop_orientation",
     /// Determinant of function values in a simplex.
     Barycentric = "barycentric",
     /// The nearest double of a coordinate.
@@ -124,6 +128,12 @@ pub fn count(p: Predicate, t: Tier) {
 #[inline(always)]
 pub fn count_topology(p: Predicate) {
     count(p, Tier::Topology);
+}
+
+/// For engines: a decision that one certified comparison of doubles took.
+#[inline(always)]
+pub fn count_filter(p: Predicate) {
+    count(p, Tier::Filter);
 }
 
 /// For engines: `n` decisions at once, of bulk passes.

@@ -24,7 +24,9 @@ pub mod static_filters;
 pub mod tiers;
 pub mod types;
 
+pub use cyclic::sort_cyclic;
 pub use filter::PlaneFilter;
+pub use planes::{Grouping, group};
 pub use predicates::{
     collinear, compare_coordinate, compare_on_edge, compare_projected, cross_dot_cross, determinant, dot, orient3d,
     side, support_side, triangle_determinant, turn_projected,

@@ -13,6 +13,8 @@ pub mod validate;
 pub mod volume;
 
 pub use build::{MeshInput, MeshOptions, build};
+pub use nesting::next_anchor;
+pub use shells::{WedgeScratch, wedge_mates};
 
 use crate::base::{ComponentId, Csr, EdgeId, ShellId, TriangleId, VertexId};
 

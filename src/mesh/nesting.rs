@@ -145,6 +145,19 @@ fn anchors(mesh: &TriMesh, scene: Scene) -> Result<Vec<Option<Anchor>>> {
     Ok(anchors)
 }
 
+/// The next anchor of a void after one that an engine could not use (its ray is degenerate with respect to something
+/// besides the mesh): from the same triangle, further along k. Leads to the same shell or to an outer one, so that
+/// chains of voids stay chains. Builds the BVH anew: a rare path.
+pub fn next_anchor(mesh: &TriMesh, previous: &Anchor) -> Option<Anchor> {
+    let bvh = super::bvh::build_bvh(&mesh.vertices, &mesh.triangles);
+    let scene = Scene { vertices: &mesh.vertices, triangles: &mesh.triangles, bvh: &bvh };
+    let before = mesh.triangle_shell[previous.hit.at()];
+    let rooted = (0..mesh.shells.len()).map(|s| mesh.shells[s].outer || s == before.at()).collect();
+    let mut finder = Finder { mesh, scene, rooted, scratch: Vec::new() };
+    let Anchor { from, order, axis, positive, .. } = *previous;
+    (previous.k + 1..MAX_K).find_map(|k| finder.attempt(RayStart { from, order, k, axis, positive }))
+}
+
 fn compare_points(a: &[f64; 3], b: &[f64; 3]) -> std::cmp::Ordering {
     a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])).then(a[2].total_cmp(&b[2]))
 }
