@@ -137,9 +137,7 @@ pub fn origin_point(mesh: &TriMesh, planes: &[Plane], origin: Origin) -> Point {
             let [a, b] = mesh.edges[e.at()];
             Point::EdgePlane { a: mesh.vertices[a.at()], b: mesh.vertices[b.at()], p: planes[p.at()] }
         }
-        Origin::Triangle(t, p, q) => {
-            Point::TrianglePlanes { t: mesh.corners(t), p: planes[p.at()], q: planes[q.at()] }
-        }
+        Origin::Triangle(t, p, q) => Point::TrianglePlanes { t: mesh.corners(t), p: planes[p.at()], q: planes[q.at()] },
         Origin::Planes(p, q, r) => Point::Planes { p: planes[p.at()], q: planes[q.at()], r: planes[r.at()] },
     }
 }

@@ -61,7 +61,12 @@ impl Strips {
     }
 
     /// The half-edge whose left side the ray meets first; `None` if nothing is hit. A piece through the start itself is passed.
-    pub fn first_hit(&self, pieces: &[[VertexId; 2]], points: &impl PlanarPoints, start: &impl RayStart) -> Option<u32> {
+    pub fn first_hit(
+        &self,
+        pieces: &[[VertexId; 2]],
+        points: &impl PlanarPoints,
+        start: &impl RayStart,
+    ) -> Option<u32> {
         let height = start.rounded_height();
         let mut best: Option<(u32, [VertexId; 2])> = None;
         for &i in self.pieces.row(self.strip(height, self.pieces.len())) {

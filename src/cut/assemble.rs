@@ -109,9 +109,8 @@ pub fn assemble(
     let corners = 3 * (mesh.triangles.len() - sub.cut.len())
         + sub.faces.items.len()
         + sections.iter().map(|s| s.loops.items.len()).sum::<usize>();
-    let faces = mesh.triangles.len() - sub.cut.len()
-        + sub.faces.len()
-        + sections.iter().map(|s| s.faces.len()).sum::<usize>();
+    let faces =
+        mesh.triangles.len() - sub.cut.len() + sub.faces.len() + sections.iter().map(|s| s.faces.len()).sum::<usize>();
     c.corner_vertices.reserve_exact(corners);
     c.corner_edges.reserve_exact(corners);
     c.loop_offsets.reserve(faces);

@@ -61,7 +61,8 @@ pub struct Knives {
 impl Knives {
     pub fn new(planes: &[Plane], max_abs: [f64; 3]) -> Self {
         let grouping = exact::group(planes);
-        let mut knives = Knives { families: vec![0], knife_of: vec![KnifeId::default(); planes.len()], ..Default::default() };
+        let mut knives =
+            Knives { families: vec![0], knife_of: vec![KnifeId::default(); planes.len()], ..Default::default() };
         for single in [false, true] {
             for family in &grouping.families {
                 if (family.members.len() == 1) != single {
@@ -345,7 +346,13 @@ const CHUNK: usize = 4096;
 /// Binary search for the slab among members `low..high` of a family that starts at knife `base`; the point is known
 /// to be above all members before `low` and below all from `high` on.
 #[inline]
-pub fn search_slab(knives: &Knives, base: u32, mut low: u32, mut high: u32, mut side: impl FnMut(KnifeId) -> Sign) -> u32 {
+pub fn search_slab(
+    knives: &Knives,
+    base: u32,
+    mut low: u32,
+    mut high: u32,
+    mut side: impl FnMut(KnifeId) -> Sign,
+) -> u32 {
     while low < high {
         let middle = (low + high) / 2;
         let k = KnifeId(base + middle);

@@ -208,7 +208,8 @@ fn faces_of(
     let ordered = (0..count).filter(|&l| !is_hole(l)).chain((0..count).filter(|&l| is_hole(l)));
     out.faces = Csr::from_pairs(outer_count as usize, ordered.map(|l| (face_of_loop[l as usize] as usize, l)));
     if keep_half_edges {
-        out.face_of_half_edge = loop_of.iter().map(|&l| if l == u32::MAX { l } else { face_of_loop[l as usize] }).collect();
+        out.face_of_half_edge =
+            loop_of.iter().map(|&l| if l == u32::MAX { l } else { face_of_loop[l as usize] }).collect();
     }
     Ok(out)
 }
@@ -227,8 +228,7 @@ fn hole_bottom(
     let mut lowest = section.origin(row[0]);
     for &h in &row[1..] {
         let v = section.origin(h);
-        let order =
-            all.compare_coordinate(v, lowest, axes.0).then_with(|| all.compare_coordinate(v, lowest, axes.1));
+        let order = all.compare_coordinate(v, lowest, axes.0).then_with(|| all.compare_coordinate(v, lowest, axes.1));
         if order == Ordering::Less {
             lowest = v;
         }

@@ -104,7 +104,11 @@ impl Section {
                 }
             }
         }
-        let ends = self.pieces.iter().enumerate().flat_map(|(i, p)| [(p.ends[0], 2 * i as u32), (p.ends[1], 2 * i as u32 + 1)]);
+        let ends = self
+            .pieces
+            .iter()
+            .enumerate()
+            .flat_map(|(i, p)| [(p.ends[0], 2 * i as u32), (p.ends[1], 2 * i as u32 + 1)]);
         let star = Csr::from_pairs(self.vertices.len(), ends.map(|(v, h)| (map.place[v.at()] as usize, h)));
         self.star = star;
         let mut row = Vec::new();
@@ -117,7 +121,9 @@ impl Section {
             row.clear();
             row.extend_from_slice(&self.star.items[range.clone()]);
             // A line first: against a line, the order of surface pieces is the side of a plane, mostly known.
-            if let Some(at) = row.iter().position(|&h| matches!(self.pieces[h as usize / 2].carrier, Carrier::Line { .. })) {
+            if let Some(at) =
+                row.iter().position(|&h| matches!(self.pieces[h as usize / 2].carrier, Carrier::Line { .. }))
+            {
                 row.swap(0, at);
             }
             sort_cyclic(&mut row, |a, b| self.turn(surface, *a, *b), |a, b| self.opposite(*a, *b));
@@ -182,7 +188,12 @@ impl Section {
         against: bool,
         next: VertexId,
     ) -> Result<bool> {
-        let Some(place) = map.get(v) else { return Ok(touching_is_inside(surface, v, self.knife)) };
+        let Some(place) = map.get(v) else {
+            // A point of an edge or a triangle is without a star only if the edge or triangle lies in the plane with
+            // nothing inside beside it.
+            let is_corner = v.0 < surface.numbering.first_edge_point;
+            return Ok(is_corner && touching_is_inside(surface, v, self.knife));
+        };
         let star = self.star.row(place);
         // Where a half-edge is, counter-clockwise from the direction: 1 left of the line, 2 straight back, 3 right.
         let code = |h: u32| -> u8 {

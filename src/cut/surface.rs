@@ -190,6 +190,7 @@ pub fn surface_origins(mesh: &TriMesh, knives: &Knives, points: &EdgePoints, sub
     origins.extend((0..mesh.vertices.len()).map(|v| Origin::Mesh(VertexId::of(v))));
     let id = |k: KnifeId| -> PlaneId { knives.ids[k.at()] };
     origins.extend(points.edge.iter().zip(&points.lead).map(|(&e, &k)| Origin::Edge(e, id(k))));
-    origins.extend(sub.point_triangle.iter().zip(&sub.point_pair).map(|(&t, &[p, q])| Origin::Triangle(t, id(p), id(q))));
+    origins
+        .extend(sub.point_triangle.iter().zip(&sub.point_pair).map(|(&t, &[p, q])| Origin::Triangle(t, id(p), id(q))));
     origins
 }

@@ -512,14 +512,7 @@ impl Scratch {
 /// Each has one end on either side of c. If the ends come in the same order on both sides, that is the order of the points.
 /// Otherwise x and y cross each other, and the sign of y's plane at the point of c and x decides: the point has
 /// barycentric weights c × x over the corner values, whose sum has the sign of the turn from c to x, which the ends tell.
-fn compare_along(
-    corners: &[[f64; 3]; 3],
-    knives: &Knives,
-    places: u32,
-    c: &Chord,
-    x: &Chord,
-    y: &Chord,
-) -> Ordering {
+fn compare_along(corners: &[[f64; 3]; 3], knives: &Knives, places: u32, c: &Chord, x: &Chord, y: &Chord) -> Ordering {
     let inside = |o: &Chord| if c.low < o.low && o.low < c.high { (o.low, o.high) } else { (o.high, o.low) };
     let ((in_x, out_x), (in_y, out_y)) = (inside(x), inside(y));
     let behind = |out: u32| if out <= c.low { c.low - out } else { c.low + places - out };

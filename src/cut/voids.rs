@@ -9,7 +9,7 @@
 //! Voids are few: this stage works in rationals.
 
 use super::classify::{KnifeId, Knives};
-use super::faces::{AllVertices, Seen, SectionFaces};
+use super::faces::{AllVertices, SectionFaces, Seen};
 use super::sections::{Section, projection_axes};
 use crate::base::{Error, FaceId, Result, ShellId, TriangleId, VertexId};
 use crate::complex::locate::{RayStart, Strips};
@@ -59,7 +59,10 @@ fn host_of_void(c: &Complex, shell: ShellId, located: &Located) -> Result<HalfFa
         }
         anchor = mesh::next_anchor(&c.mesh, &here);
     }
-    Err(Error::inconsistent(format!("no solid surrounds the void at triangle {}", c.mesh.shells[shell.at()].triangle.0)))
+    Err(Error::inconsistent(format!(
+        "no solid surrounds the void at triangle {}",
+        c.mesh.shells[shell.at()].triangle.0
+    )))
 }
 
 /// The half-face that an anchor leads to; `None` if the anchor is degenerate with respect to the planes.
@@ -143,7 +146,8 @@ fn weighted_point(mesh: &TriMesh, anchor: &Anchor) -> [Rational; 3] {
 /// Where the axis-parallel ray of an anchor meets the plane of the triangle hit.
 fn ray_end(mesh: &TriMesh, start: &[Rational; 3], anchor: &Anchor) -> [Rational; 3] {
     let [a, b, c] = mesh.corners(anchor.hit).map(|x| x.map(exactly));
-    let minus = |x: &[Rational; 3], y: &[Rational; 3]| -> [Rational; 3] { std::array::from_fn(|i| x[i].clone() - &y[i]) };
+    let minus =
+        |x: &[Rational; 3], y: &[Rational; 3]| -> [Rational; 3] { std::array::from_fn(|i| x[i].clone() - &y[i]) };
     let (u, v) = (minus(&b, &a), minus(&c, &a));
     let n: [Rational; 3] = std::array::from_fn(|i| {
         let (j, k) = ((i + 1) % 3, (i + 2) % 3);
@@ -161,7 +165,8 @@ fn sub_face(c: &Complex, t: TriangleId, x: &[Rational; 3], located: &Located) ->
     let surface = located.all.surface;
     let first = c.face_support.partition_point(|s| matches!(s, SupportId::Triangle(_)));
     let faces = (0..first).filter(|&f| c.face_support[f] == SupportId::Triangle(t)).map(FaceId::of);
-    let chords = surface.sub.chord_triangle.partition_point(|&o| o < t)..surface.sub.chord_triangle.partition_point(|&o| o <= t);
+    let chords =
+        surface.sub.chord_triangle.partition_point(|&o| o < t)..surface.sub.chord_triangle.partition_point(|&o| o <= t);
     let wanted: Vec<(KnifeId, Sign)> = chords
         .map(|chord| surface.sub.chord_knives.row(chord)[0].knife)
         .map(|k| (k, sign(&value(surface.knives.plane(k), x))))
@@ -212,8 +217,12 @@ fn locate_in_section(located: &Located, k: KnifeId, x: &[Rational; 3]) -> Result
     let axes = projection_axes(&knives.plane(k).n);
     let seen = Seen { all: located.all, axes };
     let pieces: Vec<[VertexId; 2]> = section.pieces.iter().map(|p| p.ends).collect();
-    let start =
-        FromRational { seen: &seen, x: x[axes.0].clone(), y: x[axes.1].clone(), rounded: exact::round_rational(&x[axes.1]) };
+    let start = FromRational {
+        seen: &seen,
+        x: x[axes.0].clone(),
+        y: x[axes.1].clone(),
+        rounded: exact::round_rational(&x[axes.1]),
+    };
     let hit = Strips::new(&pieces, &seen, 1).first_hit(&pieces, &seen, &start);
     match hit.map(|h| located.faces[k.at()].face_of_half_edge[h as usize]) {
         Some(face) if face != u32::MAX => Ok(FaceId(located.first_face[k.at()] + face)),
