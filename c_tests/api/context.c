@@ -179,9 +179,6 @@ static void counters(void)
     const char *name = NULL;
 
     STATUS(LAP_OK, lap_context_new(&context));
-    STATUS(LAP_OK, lap_context_counters_count(context, &count));
-    CHECK(count == 0);
-    STATUS(LAP_ERR_BAD_ARGUMENT, lap_context_counter(context, 0, &name, &value));
     STATUS(LAP_OK, lap_context_counters_enable(context, 1));
     mesh = good_mesh(context, 8, cube_xyz, 12, cube_indices, NULL);
     STATUS_IN(context, LAP_OK, lap_cut_new(context, mesh, 3, planes, NULL, &cut));

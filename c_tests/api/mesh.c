@@ -240,13 +240,13 @@ static void views(lap_context *context)
     CHECK(strcmp(exact, "1/8") == 0);
     STATUS(LAP_OK, lap_mesh_free(mesh));
 
-    /* A vertex given twice opens the surface, unless duplicates are merged. */
+    /* A vertex given twice is a defect, unless duplicates are merged. */
     memcpy(split_xyz, cube_xyz, sizeof cube_xyz);
     memcpy(split_xyz + 24, cube_xyz, 3 * sizeof(double));
     memcpy(indices, cube_indices, sizeof cube_indices);
     indices[0] = 8;
     STATUS(LAP_ERR_BAD_MESH, lap_mesh_new(context, 9, split_xyz, 12, indices, NULL, NULL, &mesh));
-    CHECK(has_defect(context, LAP_DEFECT_OPEN_EDGE, -2, -2, 0));
+    CHECK(has_defect(context, LAP_DEFECT_DUPLICATE_VERTEX, 0, 8, -1));
     STATUS(LAP_OK, lap_mesh_options_init(&options, (int32_t)sizeof options));
     options.merge_duplicate_vertices = 1;
     STATUS_IN(context, LAP_OK, lap_mesh_new(context, 9, split_xyz, 12, indices, NULL, &options, &mesh));
