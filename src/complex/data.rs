@@ -125,22 +125,21 @@ impl Complex {
     }
     /// The exact, symbolic point of a vertex.
     pub fn point(&self, v: VertexId) -> Point {
-        match self.origins[v.at()] {
-            Origin::Mesh(m) => Point::Vertex(self.mesh.vertices[m.at()]),
-            Origin::Edge(e, p) => {
-                let [a, b] = self.mesh.edges[e.at()];
-                Point::EdgePlane {
-                    a: self.mesh.vertices[a.at()],
-                    b: self.mesh.vertices[b.at()],
-                    p: self.planes[p.at()],
-                }
-            }
-            Origin::Triangle(t, p, q) => {
-                Point::TrianglePlanes { t: self.mesh.corners(t), p: self.planes[p.at()], q: self.planes[q.at()] }
-            }
-            Origin::Planes(p, q, r) => {
-                Point::Planes { p: self.planes[p.at()], q: self.planes[q.at()], r: self.planes[r.at()] }
-            }
+        origin_point(&self.mesh, &self.planes, self.origins[v.at()])
+    }
+}
+
+/// The exact point that an origin names.
+pub fn origin_point(mesh: &TriMesh, planes: &[Plane], origin: Origin) -> Point {
+    match origin {
+        Origin::Mesh(m) => Point::Vertex(mesh.vertices[m.at()]),
+        Origin::Edge(e, p) => {
+            let [a, b] = mesh.edges[e.at()];
+            Point::EdgePlane { a: mesh.vertices[a.at()], b: mesh.vertices[b.at()], p: planes[p.at()] }
         }
+        Origin::Triangle(t, p, q) => {
+            Point::TrianglePlanes { t: mesh.corners(t), p: planes[p.at()], q: planes[q.at()] }
+        }
+        Origin::Planes(p, q, r) => Point::Planes { p: planes[p.at()], q: planes[q.at()], r: planes[r.at()] },
     }
 }

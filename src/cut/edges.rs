@@ -1,0 +1,97 @@
+//! Stage 2: the points where planes cross mesh edges, in order along each edge (paper, section 3.1).
+//!
+//! Within a family of parallel planes the order along an edge is known; between families it is the sign of a 2×2
+//! determinant of corner values. Planes that cross at the same point are merged into one point with a set of planes.
+//! The set is completed by the planes that contain the whole edge, so that it is intrinsic: all planes through the point.
+//!
+//! Invariant: points of an edge are strictly ordered from its lower vertex to its higher one, and their sets are complete.
+//! Cost: the number of crossings, and a comparison of planes of unlike families per exchange of neighbours.
+
+use super::classify::{Classified, KnifeId, Knives, each_common};
+use crate::base::{Csr, EdgeId};
+use crate::exact::{self, counters};
+use crate::mesh::TriMesh;
+use std::cmp::Ordering;
+
+#[derive(Debug, Default)]
+pub struct EdgePoints {
+    /// Edge `e` has points `first[e]..first[e + 1]`, from its lower vertex to its higher.
+    pub first: Vec<u32>,
+    /// For each entry of `Classified::edge_crossings`: the place of its point along the edge.
+    pub rank: Vec<u32>,
+    /// All knives through each point, rising.
+    pub knives: Csr<KnifeId>,
+    /// The edge of each point.
+    pub edge: Vec<EdgeId>,
+    /// The knife that represents each point: of the lowest plane that crosses the edge there.
+    pub lead: Vec<KnifeId>,
+}
+
+pub fn edge_points(mesh: &TriMesh, knives: &Knives, classified: &Classified) -> EdgePoints {
+    let crossings = &classified.edge_crossings;
+    let mut out = EdgePoints {
+        first: Vec::with_capacity(mesh.edges.len() + 1),
+        rank: vec![0; crossings.items.len()],
+        knives: Csr::with_capacity(crossings.items.len(), crossings.items.len()),
+        edge: Vec::with_capacity(crossings.items.len()),
+        lead: Vec::with_capacity(crossings.items.len()),
+    };
+    out.first.push(0);
+    let mut order: Vec<u32> = Vec::new();
+    let mut group: Vec<KnifeId> = Vec::new();
+    for (e, &[a, b]) in mesh.edges.iter().enumerate() {
+        let range = crossings.range(e);
+        if range.is_empty() {
+            out.first.push(out.edge.len() as u32);
+            continue;
+        }
+        let row = &crossings.items[range.clone()];
+        order.clear();
+        order.extend(0..row.len() as u32);
+        let (xa, xb) = (&mesh.vertices[a.at()], &mesh.vertices[b.at()]);
+        let compare = |i: u32, j: u32| -> Ordering {
+            let (ki, kj) = (row[i as usize].knife, row[j as usize].knife);
+            if knives.family[ki.at()] == knives.family[kj.at()] {
+                // From the lower vertex on: rising ranks where it lies below the family, falling ones where above.
+                let below = row[i as usize].low_positive == knives.reversed[ki.at()];
+                return if below { ki.cmp(&kj) } else { kj.cmp(&ki) };
+            }
+            exact::compare_on_edge(xa, xb, knives.plane(ki), knives.plane(kj))
+        };
+        if row.len() == 1 {
+            counters::count_topology(counters::Predicate::EdgeOrder);
+        } else {
+            order.sort_by(|&i, &j| compare(i, j));
+        }
+        let containing = (classified.vertex_knives.row(a), classified.vertex_knives.row(b));
+        let mut at = 0;
+        let first = out.edge.len() as u32;
+        while at < order.len() {
+            let place = out.edge.len() as u32 - first;
+            group.clear();
+            let leader = order[at];
+            while at < order.len() && (order[at] == leader || compare(leader, order[at]) == Ordering::Equal) {
+                group.push(row[order[at] as usize].knife);
+                out.rank[range.start + order[at] as usize] = place;
+                at += 1;
+            }
+            out.lead.push(group.iter().copied().min_by_key(|k| knives.ids[k.at()]).unwrap());
+            if !containing.0.is_empty() {
+                each_common(containing.0, containing.1, |k| group.push(k));
+            }
+            group.sort_unstable();
+            out.knives.push_row(&group);
+            out.edge.push(EdgeId::of(e));
+        }
+        out.first.push(out.edge.len() as u32);
+    }
+    out
+}
+
+impl EdgePoints {
+    /// Number of points on an edge.
+    #[inline(always)]
+    pub fn count(&self, e: EdgeId) -> usize {
+        (self.first[e.at() + 1] - self.first[e.at()]) as usize
+    }
+}
