@@ -5,12 +5,13 @@
 use super::classify::{Classified, KnifeId, Knives, Place, each_through, members_between, search_slab};
 use super::edges::EdgePoints;
 use super::triangles::{Numbering, Subdivision};
-use crate::base::{PlaneId, VertexId};
+use crate::base::{Csr, EdgeId, PlaneId, VertexId};
 use crate::complex::Origin;
 use crate::complex::data::origin_point;
 use crate::exact::{self, Point, Sign, counters};
 use crate::mesh::TriMesh;
 use std::cmp::Ordering;
+use std::sync::OnceLock;
 
 /// What the stages after the surface read.
 pub struct Surface<'a> {
@@ -24,9 +25,19 @@ pub struct Surface<'a> {
     pub origins: &'a [Origin],
     pub coords: &'a [[f64; 3]],
     pub input_planes: &'a [exact::Plane],
+    /// Mesh edges at each mesh vertex; made when a plane first touches a vertex without crossing the surface there.
+    pub vertex_edges: OnceLock<Csr<EdgeId>>,
 }
 
 impl Surface<'_> {
+    pub fn edges_of_vertex(&self, v: VertexId) -> &[EdgeId] {
+        let all = self.vertex_edges.get_or_init(|| {
+            let ends = self.mesh.edges.iter().enumerate().flat_map(|(e, ends)| ends.map(|v| (v.at(), EdgeId::of(e))));
+            Csr::from_pairs(self.mesh.vertices.len(), ends)
+        });
+        all.row(v)
+    }
+
     /// All knives through a vertex of the surface, rising.
     #[inline]
     pub fn set(&self, v: VertexId) -> &[KnifeId] {

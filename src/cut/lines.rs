@@ -1,0 +1,370 @@
+//! Stage 5: the lines in which two planes meet, cut to the inside of the solid, and the points where further planes cross them
+//! (paper, sections 3.1 and 3.2).
+//!
+//! A line P∩Q matters only where it meets the surface: at the surface vertices whose plane sets hold both. Those are
+//! gathered per pair and ordered along n_P × n_Q by one coordinate. The planes that contain the line are the intersection of
+//! the sets of any two of its points; the pair of its two lowest knives owns it, other pairs of the pencil skip it. A segment
+//! between neighbours is inside if the sector that it leaves into is (`Section::inside_along`); both ends must agree.
+//!
+//! Planes that cross an inside segment are those with opposite signs at its ends: a comparison of slabs and masks. Within a
+//! family their order is known; between families it is the order of the crossing points, exactly, and planes that tie
+//! cross at one point. A point inside the solid is named by its lexicographically first independent triple; the same
+//! point is met on each of its lines, and the names are unified by sorting (stage `number_inner`).
+//!
+//! Lines outside the solid, and points on them, are never generated.
+
+use super::classify::{KnifeId, Place, each_common, each_crossing};
+use super::sections::{LocalMap, PlaneContents, Section, surface_pieces};
+use super::surface::Surface;
+use crate::base::{Csr, Error, PlaneId, Result, VertexId};
+use crate::exact::{self, Direction, Point, Sign, counters};
+use rayon::prelude::*;
+use std::cmp::Ordering;
+
+/// A plane on a line: the line's direction is +(n_P × n_other), or minus that if `against`.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct LineKnife {
+    pub knife: KnifeId,
+    pub other: KnifeId,
+    pub against: bool,
+}
+
+/// Lines with their inside segments. Every line is directed along n_P × n_Q of its two lowest knives P < Q.
+#[derive(Debug, Default)]
+pub struct Lines {
+    pub knives: Csr<LineKnife>,
+    /// Line `l` has segments `segments[l]..segments[l + 1]`.
+    pub segments: Vec<u32>,
+    pub ends: Vec<[VertexId; 2]>,
+    /// Points inside each segment, in order; filled with vertex ids by `number_inner`.
+    pub points: Csr<VertexId>,
+    /// For each entry of `points`: the first independent triple of knives.
+    names: Vec<[KnifeId; 3]>,
+    /// For each entry of `points`: all knives through it.
+    sets: Csr<KnifeId>,
+}
+
+/// The graphs of all planes with the surface's pieces, and the lines.
+pub fn sections_and_lines(surface: &Surface, contents: &PlaneContents) -> Result<(Vec<Section>, Lines)> {
+    let shared = pairs_by_knife(surface);
+    let vertex_count = surface.origins.len();
+    let results: Vec<Result<(Section, Lines)>> = (0..surface.knives.len())
+        .into_par_iter()
+        .map_init(Default::default, |scratch: &mut Scratch, k| {
+            let knife = KnifeId::of(k);
+            let mut section = Section { knife, ..Default::default() };
+            surface_pieces(surface, contents, knife, &mut section.pieces);
+            scratch.map.prepare(vertex_count);
+            section.build_stars(surface, &mut scratch.map);
+            let mut lines = Lines { segments: vec![0], ..Default::default() };
+            let outcome = scratch.lines_of(surface, &section, shared.row(knife), &mut lines);
+            scratch.map.clear(&section);
+            outcome.map(|()| (section, lines))
+        })
+        .collect();
+    let mut sections = Vec::with_capacity(results.len());
+    let mut all = Lines { segments: vec![0], ..Default::default() };
+    for result in results {
+        let (section, lines) = result?;
+        sections.push(section);
+        all.append(lines);
+    }
+    Ok((sections, all))
+}
+
+/// For each knife P the surface vertices that it shares with a higher knife Q.
+fn pairs_by_knife(surface: &Surface) -> Csr<(KnifeId, VertexId)> {
+    let pairs = (0..surface.origins.len()).flat_map(|v| {
+        let set = surface.set(VertexId::of(v));
+        let lower = set.len().saturating_sub(1);
+        (0..lower).flat_map(move |i| set[i + 1..].iter().map(move |&q| (set[i].at(), (q, VertexId::of(v)))))
+    });
+    Csr::from_pairs(surface.knives.len(), pairs)
+}
+
+impl Lines {
+    fn append(&mut self, other: Lines) {
+        let (segments, points) = (self.ends.len() as u32, self.names.len() as u32);
+        let knives = self.knives.items.len() as u32;
+        self.knives.items.extend(other.knives.items);
+        self.knives.offsets.extend(other.knives.offsets[1..].iter().map(|o| o + knives));
+        self.segments.extend(other.segments[1..].iter().map(|s| s + segments));
+        self.ends.extend(other.ends);
+        self.points.items.extend(other.points.items);
+        self.points.offsets.extend(other.points.offsets[1..].iter().map(|o| o + points));
+        self.names.extend(other.names);
+        let sets = self.sets.items.len() as u32;
+        self.sets.items.extend(other.sets.items);
+        self.sets.offsets.extend(other.sets.offsets[1..].iter().map(|o| o + sets));
+    }
+
+    pub fn check(&self) -> std::result::Result<(), String> {
+        self.knives.check()?;
+        self.points.check()?;
+        if *self.segments.last().unwrap() as usize != self.ends.len() || self.points.len() != self.ends.len() {
+            return Err("segments of lines do not match their ends".into());
+        }
+        Ok(())
+    }
+}
+
+/// Points inside the solid, by vertex id from the first inner one on.
+#[derive(Debug, Default)]
+pub struct InnerPoints {
+    /// The planes of each point's name, rising.
+    pub names: Vec<[PlaneId; 3]>,
+    pub knives: Csr<KnifeId>,
+}
+
+/// Unifies the points that several lines met: equal names are equal points. Numbers them by name.
+pub fn number_inner(surface: &Surface, lines: &mut Lines, first: u32) -> InnerPoints {
+    let mut order: Vec<([KnifeId; 3], u32)> = lines.names.iter().enumerate().map(|(i, &n)| (n, i as u32)).collect();
+    order.par_sort_unstable();
+    let mut inner = InnerPoints::default();
+    lines.points.items = vec![VertexId::NONE; order.len()];
+    let mut previous = None;
+    for (name, at) in order {
+        if previous != Some(name) {
+            previous = Some(name);
+            let set = lines.sets.row(at as usize);
+            inner.names.push(plane_name(surface, set));
+            inner.knives.push_row(set);
+        }
+        lines.points.items[at as usize] = VertexId(first + inner.names.len() as u32 - 1);
+    }
+    lines.names = Vec::new();
+    lines.sets = Csr::default();
+    inner
+}
+
+/// The lexicographically first independent triple of a set, by plane id.
+fn plane_name(surface: &Surface, set: &[KnifeId]) -> [PlaneId; 3] {
+    let id = |k: KnifeId| surface.knives.ids[k.at()];
+    if let [a, b, c] = *set {
+        let mut name = [id(a), id(b), id(c)];
+        name.sort_unstable();
+        return name;
+    }
+    let mut knives = set.to_vec();
+    knives.sort_unstable_by_key(|&k| id(k));
+    first_independent(surface, &knives).map(id)
+}
+
+/// The first independent triple of planes through one point. Distinct planes with a common point are never parallel, so
+/// the first two always belong to it.
+fn first_independent(surface: &Surface, set: &[KnifeId]) -> [KnifeId; 3] {
+    let n = |k: KnifeId| surface.knives.normal(k);
+    let third = set[2..].iter().copied().find(|&k| exact::determinant(&n(set[0]), &n(set[1]), &n(k)) != Sign::Zero);
+    [set[0], set[1], third.unwrap_or(set[set.len() - 1])]
+}
+
+#[derive(Default)]
+struct Scratch {
+    map: LocalMap,
+    shared: Vec<(KnifeId, VertexId)>,
+    line: Vec<VertexId>,
+    pencil: Vec<KnifeId>,
+    places: [Place; 2],
+    crossing: Vec<CrossingKnife>,
+    set: Vec<KnifeId>,
+}
+
+/// A plane that crosses a segment: where, as a fraction of it, with a bound.
+#[derive(Clone, Copy, Debug)]
+struct CrossingKnife {
+    knife: KnifeId,
+    at: f64,
+    bound: f64,
+    from_positive: bool,
+}
+
+impl Scratch {
+    fn lines_of(
+        &mut self,
+        surface: &Surface,
+        section: &Section,
+        shared: &[(KnifeId, VertexId)],
+        out: &mut Lines,
+    ) -> Result<()> {
+        self.shared.clear();
+        self.shared.extend_from_slice(shared);
+        self.shared.sort_unstable();
+        let mut at = 0;
+        while at < self.shared.len() {
+            let q = self.shared[at].0;
+            let end = at + self.shared[at..].iter().take_while(|s| s.0 == q).count();
+            self.line.clear();
+            self.line.extend(self.shared[at..end].iter().map(|s| s.1));
+            at = end;
+            if self.line.len() < 2 {
+                continue;
+            }
+            self.pencil.clear();
+            each_common(surface.set(self.line[0]), surface.set(self.line[1]), |k| self.pencil.push(k));
+            if self.pencil.len() < 2 || (self.pencil[0], self.pencil[1]) != (section.knife, q) {
+                continue;
+            }
+            self.line(surface, section, q, out)?;
+        }
+        Ok(())
+    }
+
+    fn line(&mut self, surface: &Surface, section: &Section, q: KnifeId, out: &mut Lines) -> Result<()> {
+        let (axis, rising) = line_axis(surface, section.knife, q);
+        let order = |a: &VertexId, b: &VertexId| {
+            let order = surface.compare_coordinate(*a, *b, axis);
+            if rising { order } else { order.reverse() }
+        };
+        self.line.sort_by(order);
+        let first = out.ends.len();
+        let line = std::mem::take(&mut self.line);
+        for pair in line.windows(2) {
+            let inside = section.inside_along(surface, &self.map, pair[0], q, false, pair[1])?;
+            if inside != section.inside_along(surface, &self.map, pair[1], q, true, pair[0])? {
+                return Err(Error::inconsistent(format!(
+                    "the line of planes {} and {} is inside the solid at one end of a segment and outside at the other: \
+                     the surface intersects itself",
+                    surface.knives.ids[section.knife.at()].0,
+                    surface.knives.ids[q.at()].0
+                )));
+            }
+            if inside {
+                self.segment(surface, section.knife, q, [pair[0], pair[1]], out);
+            }
+        }
+        self.line = line;
+        if out.ends.len() > first {
+            out.segments.push(out.ends.len() as u32);
+            for &k in &self.pencil {
+                out.knives.items.push(line_knife(surface, section.knife, q, k));
+            }
+            out.knives.end_row();
+        }
+        Ok(())
+    }
+
+    /// One inside segment: the planes that cross it, in order, with ties merged.
+    fn segment(&mut self, surface: &Surface, p: KnifeId, q: KnifeId, ends: [VertexId; 2], out: &mut Lines) {
+        let [from, to] = &mut self.places;
+        surface.place(ends[0], from);
+        surface.place(ends[1], to);
+        self.crossing.clear();
+        let crossing = &mut self.crossing;
+        each_crossing(surface.knives, (&from.slabs, &from.masks), (&to.slabs, &to.masks), |knife, sign| {
+            crossing.push(CrossingKnife { knife, at: 0.0, bound: 0.0, from_positive: sign == Sign::Positive });
+        });
+        if self.crossing.len() > 1 {
+            self.order_crossings(surface, p, q, ends);
+        }
+        let mut at = 0;
+        while at < self.crossing.len() {
+            let leader = self.crossing[at];
+            self.set.clear();
+            self.set.extend_from_slice(&self.pencil);
+            self.set.push(leader.knife);
+            at += 1;
+            while at < self.crossing.len()
+                && compare_crossings(surface, p, q, ends, &leader, &self.crossing[at]) == Ordering::Equal
+            {
+                self.set.push(self.crossing[at].knife);
+                at += 1;
+            }
+            self.set.sort_unstable();
+            let name = match *self.set {
+                [a, b, c] => [a, b, c],
+                _ => first_independent(surface, &self.set),
+            };
+            out.names.push(name);
+            out.sets.push_row(&self.set);
+            out.points.items.push(VertexId::NONE);
+        }
+        out.points.end_row();
+        out.ends.push(ends);
+    }
+
+    fn order_crossings(&mut self, surface: &Surface, p: KnifeId, q: KnifeId, ends: [VertexId; 2]) {
+        for c in &mut self.crossing {
+            (c.at, c.bound) = crossing_fraction(surface, c.knife, ends);
+        }
+        self.crossing.sort_by(|a, b| compare_crossings(surface, p, q, ends, a, b));
+    }
+}
+
+/// Where plane k crosses the segment, as a fraction: t = v/(v − w) with v, w the plane's values at the ends.
+///
+/// The computed v and w (at rounded coordinates) are within E of the true values, which have opposite signs, and
+/// ∂t/∂v = −w/(v−w)², ∂t/∂w = v/(v−w)², so to first order |dt| ≤ E/|v−w|. With E ≤ |v−w|/16 the higher orders add less than
+/// a fifth, rounding adds 3u; the bound takes twice the first order plus 4u. If E is larger nothing is certain.
+fn crossing_fraction(surface: &Surface, k: KnifeId, ends: [VertexId; 2]) -> (f64, f64) {
+    let (v, bound) = surface.knives.value_at_rounded(k, &surface.coords[ends[0].at()]);
+    let (w, _) = surface.knives.value_at_rounded(k, &surface.coords[ends[1].at()]);
+    let difference = v - w;
+    if bound * 16.0 < difference.abs() {
+        (v / difference, 2.0 * bound / difference.abs() + 2.0 * f64::EPSILON)
+    } else {
+        (0.5, f64::INFINITY)
+    }
+}
+
+fn compare_crossings(
+    surface: &Surface,
+    p: KnifeId,
+    q: KnifeId,
+    ends: [VertexId; 2],
+    a: &CrossingKnife,
+    b: &CrossingKnife,
+) -> Ordering {
+    let knives = surface.knives;
+    if knives.family[a.knife.at()] == knives.family[b.knife.at()] {
+        counters::count_topology(counters::Predicate::PointOrder);
+        // Rising ranks where the segment starts below the family.
+        let below = a.from_positive == knives.reversed[a.knife.at()];
+        return if below { a.knife.cmp(&b.knife) } else { b.knife.cmp(&a.knife) };
+    }
+    let gap = b.at - a.at;
+    if gap.abs() > a.bound + b.bound {
+        counters::count_filter(counters::Predicate::PointOrder);
+        return if gap > 0.0 { Ordering::Less } else { Ordering::Greater };
+    }
+    // Exactly: the side of b's plane on which a's point lies, against the side where the segment starts.
+    let point = Point::Planes { p: *knives.plane(p), q: *knives.plane(q), r: *knives.plane(a.knife) };
+    let side = exact::support_side(&exact::Support::Plane(*knives.plane(b.knife)), &point);
+    let _ = ends;
+    match (side, b.from_positive) {
+        (Sign::Zero, _) => Ordering::Equal,
+        (Sign::Positive, true) | (Sign::Negative, false) => Ordering::Less,
+        _ => Ordering::Greater,
+    }
+}
+
+/// An axis along which the line P∩Q is strictly monotone, and whether the coordinate rises along n_P × n_Q.
+fn line_axis(surface: &Surface, p: KnifeId, q: KnifeId) -> (usize, bool) {
+    let (n, m) = (surface.knives.plane(p).n, surface.knives.plane(q).n);
+    let d = [n[1] * m[2] - n[2] * m[1], n[2] * m[0] - n[0] * m[2], n[0] * m[1] - n[1] * m[0]];
+    let best = (0..3).max_by(|&i, &j| d[i].abs().total_cmp(&d[j].abs())).unwrap();
+    let unit = |axis: usize| {
+        let mut e = [0.0; 3];
+        e[axis] = 1.0;
+        Direction::Plane(e)
+    };
+    for axis in [best, (best + 1) % 3, (best + 2) % 3] {
+        match exact::determinant(&Direction::Plane(n), &Direction::Plane(m), &unit(axis)) {
+            Sign::Zero => continue,
+            sign => return (axis, sign == Sign::Positive),
+        }
+    }
+    unreachable!("planes with a common point that are distinct are not parallel")
+}
+
+/// How the line of p and q (directed along n_p × n_q) is seen in plane k of its pencil.
+fn line_knife(surface: &Surface, p: KnifeId, q: KnifeId, k: KnifeId) -> LineKnife {
+    if k == p {
+        return LineKnife { knife: k, other: q, against: false };
+    }
+    if k == q {
+        return LineKnife { knife: k, other: p, against: true };
+    }
+    let n = |k: KnifeId| surface.knives.normal(k);
+    let against = exact::cross_dot_cross(&n(p), &n(q), &n(k), &n(p)) == Sign::Negative;
+    LineKnife { knife: k, other: p, against }
+}
