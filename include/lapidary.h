@@ -178,7 +178,7 @@ typedef struct lap_mesh_options {
     int32_t struct_size;
     /*
      Nonzero: vertices with equal coordinates become one (the lowest index stands for all). 0, the default: they
-     are told apart by their indices.
+     are a defect.
      */
     int32_t merge_duplicate_vertices;
     /*
@@ -309,7 +309,7 @@ int32_t lap_context_last_defects(struct lap_context *context,
 
 /*
  Switches the predicate counters on (nonzero) or off (0, the default). They tell, per predicate and per tier, how many
- decisions the calls with this context took.
+ decisions the making of meshes and cuts with this context took.
 
  Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BUSY. Cost when on: a few percent of a call.
  */
@@ -324,16 +324,18 @@ int32_t lap_context_counters_enable(struct lap_context *context,
 int32_t lap_context_counters_reset(struct lap_context *context);
 
 /*
- How many predicate counters there are; 0 until a call has run with counters on.
+ How many predicate counters there are.
 
  Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BUSY. Cost: none.
  */
 int32_t lap_context_counters_count(struct lap_context *context, int32_t *count);
 
 /*
- Predicate counter i, from 0: its name ("predicate.tier") and its value, summed over all calls since it was reset.
+ Predicate counter i, from 0: its name ("predicate.tier") and its value, summed over all calls since it was reset. Tiers:
+ topology (it was known already), filter (a few operations in double), bounded (a running error bound), exact
+ (integers on the stack), big (integers of any size).
 
- Outputs (each may be NULL). name is valid until the next call with this context.
+ Outputs (each may be NULL). name lives as long as the process.
 
  Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BAD_ARGUMENT if there is no such counter, LAP_ERR_BUSY. Cost: none.
  */
@@ -776,18 +778,23 @@ int32_t lap_complex_polygons(const struct lap_complex *complex,
                              const int32_t **faces);
 
 /*
- Which half-face follows across an edge on the surface of the same cell.
+ What follows across each edge on the surface of the same cell: adjacent(half-face, edge).
 
- Outputs (each may be NULL; borrowed as the complex): count: the number of corners, as in lap_complex_faces; adjacent:
- 2 × count: adjacent[2 c + s] is the half-face that meets side s of the corner's face along the edge from corner c to the
- next, -1 for an isolated vertex.
+ The half-corner 2 c + s is side s of the face of corner c, along the edge from corner c to the next of its loop. Its mate
+ is the half-corner that meets it at that edge inside the same cell.
 
- Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_INTERNAL. Threads: any. Cost: radial orders around all edges
- at the first call, then none.
+ Outputs (each may be NULL; borrowed as the complex): count: the number of corners, as in lap_complex_faces; mates:
+ 2 × count: mates[2 c + s] is the mate of half-corner 2 c + s, -1 outside the solid and for an isolated vertex; faces:
+ count: the face of each corner. So the half-face across is 2 faces[m / 2] + m % 2 for a mate m.
+
+ Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_INCONSISTENT if half-faces do not pair up (input that intersects
+ itself). Threads: any. Cost: linear, and radial orders around edges that a cell meets more than once, at the
+ first call; then none.
  */
 int32_t lap_complex_adjacency(const struct lap_complex *complex,
                               int64_t *count,
-                              const int32_t **adjacent);
+                              const int32_t **mates,
+                              const int32_t **faces);
 
 /*
  The Euler characteristic of the complex and of the solid that it was made from; a correct complex has both equal.

@@ -372,6 +372,16 @@ public:
         rows<std::int32_t> vertices;
         view<std::int32_t> faces;
     };
+    struct adjacency_t {
+        view<std::int32_t> mates, faces;
+
+        /* The half-face across the edge of a half-corner (2 * corner + side), -1 if none. */
+        std::int32_t across(std::int64_t half_corner) const
+        {
+            const std::int32_t mate = mates[half_corner];
+            return mate < 0 ? -1 : 2 * faces[mate / 2] + mate % 2;
+        }
+    };
     struct euler_t {
         std::int64_t output, input;
     };
@@ -480,12 +490,11 @@ public:
         p.faces.count = p.vertices.count;
         return p;
     }
-    /* [2 * corner + side] */
-    view<std::int32_t> adjacency() const
+    adjacency_t adjacency() const
     {
-        view<std::int32_t> a;
-        check(lap_complex_adjacency(get(), &a.count, &a.data));
-        a.count *= 2;
+        adjacency_t a;
+        check(lap_complex_adjacency(get(), &a.faces.count, &a.mates.data, &a.faces.data));
+        a.mates.count = 2 * a.faces.count;
         return a;
     }
     euler_t euler() const

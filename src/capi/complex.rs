@@ -4,8 +4,7 @@ use super::guard::guard;
 use super::view::{address, handle, index, put};
 use crate::base::{CellId, FaceId, PlaneId, Status};
 use crate::complex::{Complex, Origin, SupportId};
-use rayon::ThreadPool;
-use std::sync::{Arc, OnceLock};
+use std::sync::OnceLock;
 
 /// A vertex of the input mesh. ids: its index in the caller's array
 pub const LAP_VERTEX_MESH: i32 = 0;
@@ -30,15 +29,15 @@ pub const LAP_SUPPORT_PLANE: i32 = 1;
 /// belongs to the neighbour, and there the outward normal is the face's normal reversed.
 pub struct lap_complex {
     pub data: Complex,
-    /// Where demands are computed.
-    pub pool: Arc<ThreadPool>,
+    /// How many threads what is computed on demand may use.
+    pub threads: usize,
     origins: OnceLock<(Vec<i32>, Vec<[i32; 3]>)>,
     supports: OnceLock<(Vec<i32>, Vec<i32>)>,
 }
 
 impl lap_complex {
     /// Takes a complex over, if all its counts fit C's `int32_t`.
-    pub fn new(data: Complex, pool: Arc<ThreadPool>) -> Result<Self, Status> {
+    pub fn new(data: Complex, threads: usize) -> Result<Self, Status> {
         let longest = [
             data.vertex_count(),
             data.vertex_planes.items.len(),
@@ -51,7 +50,7 @@ impl lap_complex {
         if longest.iter().any(|&n| n > i32::MAX as usize) {
             return Err(Status::TooLarge);
         }
-        Ok(Self { data, pool, origins: OnceLock::new(), supports: OnceLock::new() })
+        Ok(Self { data, threads, origins: OnceLock::new(), supports: OnceLock::new() })
     }
 }
 

@@ -12,11 +12,12 @@
 use super::guard::{Host, adopt_worker, catch, guard};
 use super::view::{address, index, into_handle, put};
 use crate::base::{Error, Run, Status};
+use crate::exact::counters::{self, Counts, PREDICATES, Predicate, TIERS};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::cell::UnsafeCell;
-use std::ffi::{CStr, CString, c_char, c_void};
+use std::ffi::{CString, c_char, c_void};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, mpsc};
+use std::sync::{Arc, OnceLock, mpsc};
 
 /// Largest number of threads of a context.
 pub const LAP_MAX_THREADS: i32 = 1024;
@@ -52,7 +53,7 @@ pub struct State {
     defect_kinds: Vec<i32>,
     defect_ids: Vec<[i64; 3]>,
     counting: bool,
-    counters: Vec<(CString, i64)>,
+    counts: Counts,
     /// Exact strings of the last call.
     pub strings: [CString; 3],
 }
@@ -69,7 +70,7 @@ impl State {
             defect_kinds: Vec::new(),
             defect_ids: Vec::new(),
             counting: false,
-            counters: Vec::new(),
+            counts: Counts::ZERO,
             strings: Default::default(),
         }
     }
@@ -88,18 +89,19 @@ impl State {
         self.defect_ids.extend(error.culprits.iter().map(|c| c.ids));
     }
 
-    /// The pool, made when first needed. Handles that compute on demand keep it alive.
-    pub fn pool(&mut self) -> Result<Arc<ThreadPool>, Error> {
-        if self.pool.is_none() {
-            let pool = ThreadPoolBuilder::new()
-                .num_threads(self.threads)
-                .thread_name(|i| format!("lapidary-{i}"))
-                .start_handler(|_| adopt_worker())
-                .build()
-                .map_err(|e| Error::new(Status::OutOfMemory, format!("no threads to be had: {e}")))?;
-            self.pool = Some(Arc::new(pool));
-        }
-        Ok(self.pool.clone().unwrap())
+    /// How many threads a handle made now may use for what it computes on demand.
+    pub fn threads(&self) -> usize {
+        self.threads
+    }
+
+    /// The pool, made when first needed.
+    fn pool(&mut self) -> Result<Arc<ThreadPool>, Error> {
+        let pool = match self.pool.take() {
+            Some(pool) => pool,
+            None => Arc::new(make_pool(self.threads)?),
+        };
+        self.pool = Some(pool.clone());
+        Ok(pool)
     }
 
     /// Runs engine work in the pool, its callbacks on the calling thread.
@@ -109,6 +111,29 @@ impl State {
         body: impl FnOnce(&mut Run) -> Result<T, Error> + Send,
     ) -> Result<T, Error> {
         let pool = self.pool()?;
+        if !self.counting {
+            return self.run_in(&pool, host, body);
+        }
+        // Counters are thread-local.
+        pool.broadcast(|_| {
+            counters::take();
+            counters::enable(true);
+        });
+        let result = self.run_in(&pool, host, body);
+        let counted = pool.broadcast(|_| {
+            counters::enable(false);
+            counters::take()
+        });
+        counted.iter().for_each(|counts| self.counts.merge(counts));
+        result
+    }
+
+    fn run_in<T: Send>(
+        &self,
+        pool: &ThreadPool,
+        host: &mut Host,
+        body: impl FnOnce(&mut Run) -> Result<T, Error> + Send,
+    ) -> Result<T, Error> {
         let (progress, log) = (self.progress, self.log);
         if progress.0.is_none() && log.0.is_none() {
             return pool.install(|| catch(|| body(&mut Run::quiet())));
@@ -150,6 +175,25 @@ impl State {
         });
         result.unwrap_or_else(|| Err(Error::new(Status::Internal, "the worker ended without a result")))
     }
+}
+
+/// A pool whose threads have the clean floating-point environment and panic silently.
+pub fn make_pool(threads: usize) -> Result<ThreadPool, Error> {
+    ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .thread_name(|i| format!("lapidary-{i}"))
+        .start_handler(|_| adopt_worker())
+        .build()
+        .map_err(|e| Error::new(Status::OutOfMemory, format!("no threads to be had: {e}")))
+}
+
+/// Names of the counters, "predicate.tier", in the order in which they are numbered.
+fn counter_names() -> &'static [CString] {
+    static NAMES: OnceLock<Vec<CString>> = OnceLock::new();
+    NAMES.get_or_init(|| {
+        let tiers = |p: Predicate| TIERS.iter().map(move |t| c_string(&format!("{}.{}", p.name(), t.name())));
+        PREDICATES.iter().flat_map(|&p| tiers(p)).collect()
+    })
 }
 
 enum Note {
@@ -334,7 +378,7 @@ pub unsafe extern "C" fn lap_context_last_defects(
 }
 
 /// Switches the predicate counters on (nonzero) or off (0, the default). They tell, per predicate and per tier, how many
-/// decisions the calls with this context took.
+/// decisions the making of meshes and cuts with this context took.
 ///
 /// Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BUSY. Cost when on: a few percent of a call.
 #[unsafe(no_mangle)]
@@ -351,28 +395,30 @@ pub unsafe extern "C" fn lap_context_counters_enable(context: *mut lap_context, 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn lap_context_counters_reset(context: *mut lap_context) -> i32 {
     enter(context, |state, _| {
-        state.counters.clear();
+        state.counts = Counts::ZERO;
         Ok(())
     })
 }
 
-/// How many predicate counters there are; 0 until a call has run with counters on.
+/// How many predicate counters there are.
 ///
 /// Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BUSY. Cost: none.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn lap_context_counters_count(context: *mut lap_context, count: *mut i32) -> i32 {
-    enter(context, |state, _| {
+    enter(context, |_, _| {
         if count.is_null() {
             return Err(Status::NullPointer);
         }
-        unsafe { put(count, state.counters.len() as i32) };
+        unsafe { put(count, counter_names().len() as i32) };
         Ok(())
     })
 }
 
-/// Predicate counter i, from 0: its name ("predicate.tier") and its value, summed over all calls since it was reset.
+/// Predicate counter i, from 0: its name ("predicate.tier") and its value, summed over all calls since it was reset. Tiers:
+/// topology (it was known already), filter (a few operations in double), bounded (a running error bound), exact
+/// (integers on the stack), big (integers of any size).
 ///
-/// Outputs (each may be NULL). name is valid until the next call with this context.
+/// Outputs (each may be NULL). name lives as long as the process.
 ///
 /// Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BAD_ARGUMENT if there is no such counter, LAP_ERR_BUSY. Cost: none.
 #[unsafe(no_mangle)]
@@ -383,11 +429,11 @@ pub unsafe extern "C" fn lap_context_counter(
     value: *mut i64,
 ) -> i32 {
     enter(context, |state, _| {
-        let (text, number) = &state.counters[index(i, state.counters.len())?];
-        let text: &CStr = text;
+        let i = index(i, counter_names().len())?;
+        let count = state.counts.get(PREDICATES[i / TIERS.len()], TIERS[i % TIERS.len()]);
         unsafe {
-            put(name, text.as_ptr());
-            put(value, *number);
+            put(name, counter_names()[i].as_ptr());
+            put(value, count as i64);
         }
         Ok(())
     })

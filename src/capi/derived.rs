@@ -76,21 +76,26 @@ pub unsafe extern "C" fn lap_complex_polygons(
     guard(|_| unsafe { handle(complex) }.and(Err(Status::Internal)))
 }
 
-/// Which half-face follows across an edge on the surface of the same cell.
+/// What follows across each edge on the surface of the same cell: adjacent(half-face, edge).
 ///
-/// Outputs (each may be NULL; borrowed as the complex): count: the number of corners, as in lap_complex_faces; adjacent:
-/// 2 × count: adjacent[2 c + s] is the half-face that meets side s of the corner's face along the edge from corner c to the
-/// next, -1 for an isolated vertex.
+/// The half-corner 2 c + s is side s of the face of corner c, along the edge from corner c to the next of its loop. Its mate
+/// is the half-corner that meets it at that edge inside the same cell.
 ///
-/// Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_INTERNAL. Threads: any. Cost: radial orders around all edges
-/// at the first call, then none.
+/// Outputs (each may be NULL; borrowed as the complex): count: the number of corners, as in lap_complex_faces; mates:
+/// 2 × count: mates[2 c + s] is the mate of half-corner 2 c + s, -1 outside the solid and for an isolated vertex; faces:
+/// count: the face of each corner. So the half-face across is 2 faces[m / 2] + m % 2 for a mate m.
+///
+/// Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_INCONSISTENT if half-faces do not pair up (input that intersects
+/// itself). Threads: any. Cost: linear, and radial orders around edges that a cell meets more than once, at the
+/// first call; then none.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn lap_complex_adjacency(
     complex: *const lap_complex,
     count: *mut i64,
-    adjacent: *mut *const i32,
+    mates: *mut *const i32,
+    faces: *mut *const i32,
 ) -> i32 {
-    let _ = (count, adjacent);
+    let _ = (count, mates, faces);
     guard(|_| unsafe { handle(complex) }.and(Err(Status::Internal)))
 }
 

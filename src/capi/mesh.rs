@@ -4,7 +4,7 @@ use super::context::{State, lap_context, with_context};
 use super::guard::{Host, guard};
 use super::view::{address, handle, input, into_handle, put, read_options, write_options};
 use crate::base::{Error, Status};
-use crate::mesh::TriMesh;
+use crate::mesh::{self, MeshInput, MeshOptions, TriMesh};
 use std::ffi::c_char;
 use std::sync::Arc;
 
@@ -22,7 +22,7 @@ pub struct lap_mesh_options {
     /// Size of this struct in bytes, as the caller was compiled.
     pub struct_size: i32,
     /// Nonzero: vertices with equal coordinates become one (the lowest index stands for all). 0, the default: they
-    /// are told apart by their indices.
+    /// are a defect.
     pub merge_duplicate_vertices: i32,
     /// Nonzero: find every pair of triangles that meet outside a vertex or an edge which they share, exactly. 0, the
     /// default: self-intersecting input gives LAP_ERR_INCONSISTENT or a result of unspecified geometry, never a crash.
@@ -155,9 +155,12 @@ pub fn bad_options(status: Status) -> Error {
 }
 
 fn build(state: &mut State, host: &mut Host, arrays: &Arrays) -> Result<TriMesh, Error> {
-    let _ = (arrays.vertices, arrays.triangles, arrays.tags);
-    let _ = (arrays.options.merge_duplicate_vertices, arrays.options.check_self_intersection);
-    state.run(host, |_| Err(Error::new(Status::Internal, "not there yet")))
+    let input = MeshInput { vertices: arrays.vertices, triangles: arrays.triangles, tags: arrays.tags };
+    let options = MeshOptions {
+        merge_duplicate_vertices: arrays.options.merge_duplicate_vertices != 0,
+        check_self_intersection: arrays.options.check_self_intersection != 0,
+    };
+    state.run(host, |run| mesh::build(&input, &options, run))
 }
 
 /// Frees a mesh. NULL is allowed and does nothing. Results made from the mesh stay valid.

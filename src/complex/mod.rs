@@ -1,10 +1,26 @@
 //! The output: cells, faces, edges and vertices with half-faces; and everything that all engines need to get
 //! from faces to nested cells and from there to the arrays that a host reads.
 
+pub mod adjacency;
+pub mod bridge;
+pub mod certified;
+pub mod check;
 pub mod data;
 pub mod locate;
 pub mod loops;
 pub mod radial;
 pub mod shells;
+pub mod ears;
+pub mod euler;
+pub mod exact_values;
+pub mod moments;
+pub mod projection;
+pub mod styles;
+pub mod triangulate;
 
+pub use adjacency::{Adjacency, HalfCorner, adjacency};
+pub use check::{check, check_volumes};
 pub use data::{Complex, HalfFace, Origin, SupportId};
+pub use euler::{euler, solid_euler};
+pub use moments::{Moments, moments};
+pub use styles::{FaceArrays, FaceStyle, faces_as};

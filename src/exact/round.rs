@@ -16,7 +16,7 @@ use super::double_double::{DoubleDouble, DoubleDoubleKernel, fast_two_sum};
 use super::lift::Scan;
 use super::points::{denominator, homogeneous, numerator, plain, shape};
 use super::ring::{Expression, Kernel, Ring};
-use super::tiers::{exact_sign, sign_of};
+use super::tiers::exact_sign;
 use super::types::{Approx, Point};
 use rug::{Integer, Rational};
 
@@ -98,7 +98,8 @@ fn round_coordinate(x: &Point, axis: usize, n: &DoubleDouble, w: &DoubleDouble) 
             };
         }
     }
-    if sign_of(&Numerator(x, axis)).is_zero() {
+    // (Counted as two decisions where it is not zero; that is rare.)
+    if exact_sign(&Numerator(x, axis)).is_zero() {
         return 0.0;
     }
     count(Predicate::Rounding, Tier::Big);
@@ -123,7 +124,8 @@ fn interval(n: &DoubleDouble, w: &DoubleDouble) -> Option<(f64, f64)> {
     let off = off + f64::from_bits(1);
     let (h, l) = fast_two_sum(q1, q2);
     // |q2| <= |q1| can fail only where the quotient is lost in its error; the sum is then not exact.
-    if !(q2.abs() <= q1.abs()) || !h.is_finite() {
+    let sum_is_exact = q2.abs() <= q1.abs() && h.is_finite();
+    if !sum_is_exact {
         return None;
     }
     // h + (l ± off), the inner sums rounded outwards, the outer ones to nearest: rounding is monotonous.
