@@ -456,7 +456,8 @@ int32_t lap_mesh_triangles(const struct lap_mesh *mesh,
 /*
  The volume of the solid, in cubed units of the input: the double nearest to the exact volume.
 
- Errors: LAP_ERR_NULL_POINTER. Threads: any. Cost: one exact sum over the triangles.
+ Errors: LAP_ERR_NULL_POINTER. Threads: any. Cost: an exact sum over
+ the triangles at the first call, then none.
  */
 int32_t lap_mesh_volume(const struct lap_mesh *mesh, double *volume);
 
@@ -465,7 +466,8 @@ int32_t lap_mesh_volume(const struct lap_mesh *mesh, double *volume);
 
  volume: valid until the next call with this context. A GMP or CGAL rational reads it.
 
- Errors: LAP_ERR_NULL_POINTER, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: one exact sum over the triangles.
+ Errors: LAP_ERR_NULL_POINTER, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: an exact sum over
+ the triangles at the first call, then none.
  */
 int32_t lap_mesh_volume_exact(struct lap_context *context, const struct lap_mesh *mesh, const char **volume);
 
@@ -473,7 +475,7 @@ int32_t lap_mesh_volume_exact(struct lap_context *context, const struct lap_mesh
  The Euler characteristic of the solid, by the expression of lap_complex_euler: ball 1, ball with a void 2, solid
  torus 0, two tetrahedra sharing a vertex 1.
 
- Errors: LAP_ERR_NULL_POINTER. Threads: any. Cost: linear.
+ Errors: LAP_ERR_NULL_POINTER. Threads: any. Cost: linear at the first call, then none.
  */
 int32_t lap_mesh_euler(const struct lap_mesh *mesh,
                        int64_t *euler);

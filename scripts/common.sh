@@ -34,15 +34,23 @@ need_rust() {
   [ "$(printf '%s\n%s\n' "$want" "$have" | sort -V | head -n 1)" = "$want" ] || die "rustc $have is older than $want"
 }
 
-# cgal_meshes DIRECTORY: unpacks the meshes of CGAL's data set into DIRECTORY/data/meshes. They come with libcgal-dev's
-# documentation, which slim images leave out when they install a package; then they are taken from the package itself.
+# cgal_meshes DIRECTORY: unpacks the meshes of CGAL's data set into DIRECTORY/data/meshes. They are documentation of the
+# package libcgal-demo, and slim images leave documentation out when they install a package; then they are taken from the
+# package file itself.
 cgal_meshes() {
   local into=$1 archive=/usr/share/doc/libcgal-dev/data.tar.gz
   [ -e "$into/data/meshes/elephant.off" ] && return
   mkdir -p "$into"
   if [ ! -e "$archive" ]; then
-    say "the documentation of libcgal-dev is not on this machine; taking CGAL's data from the package"
-    (cd "$into" && apt-get download -qq libcgal-dev </dev/null && dpkg-deb -x libcgal-dev_*.deb package && rm libcgal-dev_*.deb)
+    say "libcgal-demo's documentation is not on this machine; taking CGAL's data from the package"
+    # Where apt's own user may write: it warns if it has to download as root.
+    local scratch
+    scratch=$(mktemp -d)
+    chmod 755 "$scratch"
+    chown _apt "$scratch" 2>/dev/null || true
+    apt-get update -qq </dev/null
+    (cd "$scratch" && apt-get download -qq libcgal-demo </dev/null && dpkg-deb -x libcgal-demo_*.deb "$OLDPWD/$into/package")
+    rm -rf "$scratch"
     archive=$into/package/usr/share/doc/libcgal-dev/data.tar.gz
   fi
   tar -xzf "$archive" -C "$into" --wildcards 'data/meshes/*'

@@ -117,8 +117,8 @@ def main():
     faces.UseLookupTableScalarRangeOn()
     solid = vtkActor()
     solid.SetMapper(faces)
-    solid.GetProperty().SetAmbient(0.34)
-    solid.GetProperty().SetDiffuse(0.72)
+    solid.GetProperty().SetAmbient(0.40)
+    solid.GetProperty().SetDiffuse(0.66)
     solid.GetProperty().SetSpecular(0.10)
     solid.GetProperty().SetSpecularPower(25)
 
@@ -139,16 +139,16 @@ def main():
     renderer = vtkRenderer()
     renderer.SetBackground(1, 1, 1)
     renderer.AutomaticLightCreationOff()
-    light(renderer, -30, 35, 0.70)  # key
-    light(renderer, 55, 10, 0.45)  # fill
-    light(renderer, 10, 80, 0.35)  # from above
+    light(renderer, -25, 30, 0.75)  # key
+    light(renderer, 55, 5, 0.45)  # fill
+    light(renderer, 0, 75, 0.25)  # from above
     renderer.AddActor(solid)
     renderer.AddActor(red)
 
     # Shade what lies in the gaps between cells; then draw at twice the resolution and average.
     steps = vtkRenderStepsPass()
     occlusion = vtkSSAOPass()
-    occlusion.SetRadius(0.06 * size)
+    occlusion.SetRadius(0.05 * size)
     occlusion.SetBias(0.002 * size)
     occlusion.SetKernelSize(96)
     occlusion.BlurOn()

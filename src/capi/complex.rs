@@ -1,5 +1,6 @@
 //! The noun `lap_complex`, first half: what is stored, as borrowed views. `derived` has what is computed on demand.
 
+use super::derived::Derived;
 use super::guard::guard;
 use super::view::{address, handle, index, put};
 use crate::base::{CellId, FaceId, PlaneId, Status};
@@ -31,6 +32,7 @@ pub struct lap_complex {
     pub data: Complex,
     /// How many threads what is computed on demand may use.
     pub threads: usize,
+    pub derived: Derived,
     origins: OnceLock<(Vec<i32>, Vec<[i32; 3]>)>,
     supports: OnceLock<(Vec<i32>, Vec<i32>)>,
 }
@@ -50,7 +52,7 @@ impl lap_complex {
         if longest.iter().any(|&n| n > i32::MAX as usize) {
             return Err(Status::TooLarge);
         }
-        Ok(Self { data, threads, origins: OnceLock::new(), supports: OnceLock::new() })
+        Ok(Self { data, threads, derived: Derived::default(), origins: OnceLock::new(), supports: OnceLock::new() })
     }
 }
 

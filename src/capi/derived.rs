@@ -1,11 +1,19 @@
 //! The noun `lap_complex`, second half: what is computed on demand, once, and kept with the handle.
+//!
+//! Any of many threads may be the first to ask, also from within a callback of a running call. So the work is not done in
+//! a context's pool (whose only worker may be waiting for that callback) but in a pool made for the occasion, which
+//! costs some tens of microseconds once per demand.
 
 use super::complex::lap_complex;
-use super::context::{lap_context, with_context};
+use super::context::{State, c_string, lap_context, make_pool, with_context};
 use super::guard::guard;
-use super::view::handle;
-use crate::base::{Error, Status};
+use super::view::{address, handle, index, put};
+use crate::base::{CellId, Error, Status, VertexId};
+use crate::complex::{
+    self, Adjacency, Complex, FaceArrays, FaceStyle, Moments, adjacency, check_volumes, exact_values, faces_as, moments,
+};
 use std::ffi::c_char;
+use std::sync::OnceLock;
 
 /// Faces with holes: one polygon per loop.
 pub const LAP_FACES_HOLES: i32 = 0;
@@ -13,6 +21,34 @@ pub const LAP_FACES_HOLES: i32 = 0;
 pub const LAP_FACES_BRIDGED: i32 = 1;
 /// Triangles.
 pub const LAP_FACES_TRIANGLES: i32 = 2;
+
+/// Everything that is computed on demand. A failure is kept as well: it would only fail again.
+#[derive(Default)]
+pub struct Derived {
+    moments: OnceLock<Moments>,
+    polygons: [OnceLock<Result<FaceArrays, String>>; 3],
+    adjacency: OnceLock<Result<Adjacency, String>>,
+    euler: OnceLock<Result<i64, String>>,
+}
+
+/// What `slot` holds; the first caller computes it.
+fn demand<'a, T: Send + Sync>(
+    complex: &'a lap_complex,
+    slot: &'a OnceLock<T>,
+    compute: impl FnOnce(&Complex) -> T + Send,
+) -> Result<&'a T, Status> {
+    if let Some(known) = slot.get() {
+        return Ok(known);
+    }
+    // Made outside of the slot's initialisation, which cannot fail but by a panic; that leaves the slot empty.
+    let pool = make_pool(complex.threads).map_err(|error| error.status)?;
+    Ok(slot.get_or_init(|| pool.install(|| compute(&complex.data))))
+}
+
+/// A result that only input which intersects itself can make an error.
+fn consistent<T>(result: &Result<T, String>) -> Result<&T, Status> {
+    result.as_ref().map_err(|_| Status::Inconsistent)
+}
 
 /// The moments of the cells: volume and centroid, in powers of the units of the input.
 ///
@@ -30,8 +66,17 @@ pub unsafe extern "C" fn lap_complex_cell_moments(
     centroids: *mut *const f64,
     flags: *mut *const u8,
 ) -> i32 {
-    let _ = (count, volumes, centroids, flags);
-    guard(|_| unsafe { handle(complex) }.and(Err(Status::Internal)))
+    guard(|_| {
+        let complex = unsafe { handle(complex) }?;
+        let m = demand(complex, &complex.derived.moments, moments)?;
+        unsafe {
+            put(count, m.cell_volume.len() as i64);
+            put(volumes, address(&m.cell_volume));
+            put(centroids, address(&m.cell_centroid));
+            put(flags, address(&m.cell_flags));
+        }
+        Ok(())
+    })
 }
 
 /// The moments of the faces: area vector (along the face's normal, its length the area) and centroid.
@@ -50,8 +95,17 @@ pub unsafe extern "C" fn lap_complex_face_moments(
     centroids: *mut *const f64,
     flags: *mut *const u8,
 ) -> i32 {
-    let _ = (count, area_vectors, centroids, flags);
-    guard(|_| unsafe { handle(complex) }.and(Err(Status::Internal)))
+    guard(|_| {
+        let complex = unsafe { handle(complex) }?;
+        let m = demand(complex, &complex.derived.moments, moments)?;
+        unsafe {
+            put(count, m.face_area_vector.len() as i64);
+            put(area_vectors, address(&m.face_area_vector));
+            put(centroids, address(&m.face_centroid));
+            put(flags, address(&m.face_flags));
+        }
+        Ok(())
+    })
 }
 
 /// The faces as plain polygons, without new vertices.
@@ -72,8 +126,30 @@ pub unsafe extern "C" fn lap_complex_polygons(
     vertices: *mut *const i32,
     faces: *mut *const i32,
 ) -> i32 {
-    let _ = (style, count, offsets, vertices, faces);
-    guard(|_| unsafe { handle(complex) }.and(Err(Status::Internal)))
+    guard(|_| {
+        let complex = unsafe { handle(complex) }?;
+        let wanted = match style {
+            LAP_FACES_HOLES => FaceStyle::Holes,
+            LAP_FACES_BRIDGED => FaceStyle::Bridged,
+            LAP_FACES_TRIANGLES => FaceStyle::Triangulated,
+            _ => return Err(Status::BadArgument),
+        };
+        let slot = &complex.derived.polygons[style as usize];
+        let polygons = consistent(demand(complex, slot, |c| {
+            // Bridges are walked twice, so this style can outgrow C's index type where the loops do not.
+            faces_as(c, wanted).and_then(|p| match i32::try_from(p.vertices.len()) {
+                Ok(_) => Ok(p),
+                Err(_) => Err("more corners than an index can count".into()),
+            })
+        })?)?;
+        unsafe {
+            put(count, polygons.source_face.len() as i64);
+            put(offsets, address(&polygons.offsets));
+            put(vertices, address(&polygons.vertices));
+            put(faces, address(&polygons.source_face));
+        }
+        Ok(())
+    })
 }
 
 /// What follows across each edge on the surface of the same cell: adjacent(half-face, edge).
@@ -95,8 +171,16 @@ pub unsafe extern "C" fn lap_complex_adjacency(
     mates: *mut *const i32,
     faces: *mut *const i32,
 ) -> i32 {
-    let _ = (count, mates, faces);
-    guard(|_| unsafe { handle(complex) }.and(Err(Status::Internal)))
+    guard(|_| {
+        let complex = unsafe { handle(complex) }?;
+        let found = consistent(demand(complex, &complex.derived.adjacency, adjacency)?)?;
+        unsafe {
+            put(count, found.corner_face.len() as i64);
+            put(mates, address(&found.mates));
+            put(faces, address(&found.corner_face));
+        }
+        Ok(())
+    })
 }
 
 /// The Euler characteristic of the complex and of the solid that it was made from; a correct complex has both equal.
@@ -106,8 +190,15 @@ pub unsafe extern "C" fn lap_complex_adjacency(
 /// linear at the first call, then none.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn lap_complex_euler(complex: *const lap_complex, output: *mut i64, input: *mut i64) -> i32 {
-    let _ = (output, input);
-    guard(|_| unsafe { handle(complex) }.and(Err(Status::Internal)))
+    guard(|_| {
+        let complex = unsafe { handle(complex) }?;
+        let found = *consistent(demand(complex, &complex.derived.euler, complex::euler)?)?;
+        unsafe {
+            put(output, found);
+            put(input, complex.data.solid_euler);
+        }
+        Ok(())
+    })
 }
 
 /// Checks that a complex is consistent: indices in range, loops and shells closed, each face owned by one or two cells,
@@ -117,9 +208,9 @@ pub unsafe extern "C" fn lap_complex_euler(complex: *const lap_complex, output: 
 /// LAP_ERR_BUSY. Cost: linear.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn lap_complex_check(context: *mut lap_context, complex: *const lap_complex) -> i32 {
-    with_context(context, |_, _| {
-        unsafe { handle(complex) }.map_err(|s| Error::new(s, "complex is NULL"))?;
-        Err(Error::new(Status::Internal, "not there yet"))
+    with_context(context, |state, host| {
+        let complex = unsafe { handle(complex) }.map_err(null_complex)?;
+        state.run(host, |_| check(&complex.data))
     })
 }
 
@@ -139,10 +230,16 @@ pub unsafe extern "C" fn lap_complex_vertex_exact(
     y: *mut *const c_char,
     z: *mut *const c_char,
 ) -> i32 {
-    let _ = (vertex, x, y, z);
-    with_context(context, |_, _| {
-        unsafe { handle(complex) }.map_err(|s| Error::new(s, "complex is NULL"))?;
-        Err(Error::new(Status::Internal, "not there yet"))
+    with_context(context, |state, _| {
+        let c = &unsafe { handle(complex) }.map_err(null_complex)?.data;
+        let vertex = index(vertex, c.vertex_count()).map_err(|s| no_such("vertex", vertex, c.vertex_count(), s))?;
+        state.strings = exact_values::vertex_strings(c, VertexId::of(vertex)).map(|text| c_string(&text));
+        unsafe {
+            put(x, state.strings[0].as_ptr());
+            put(y, state.strings[1].as_ptr());
+            put(z, state.strings[2].as_ptr());
+        }
+        Ok(())
     })
 }
 
@@ -160,9 +257,32 @@ pub unsafe extern "C" fn lap_complex_cell_volume_exact(
     cell: i32,
     volume: *mut *const c_char,
 ) -> i32 {
-    let _ = (cell, volume);
-    with_context(context, |_, _| {
-        unsafe { handle(complex) }.map_err(|s| Error::new(s, "complex is NULL"))?;
-        Err(Error::new(Status::Internal, "not there yet"))
+    with_context(context, |state, _| {
+        let c = &unsafe { handle(complex) }.map_err(null_complex)?.data;
+        if volume.is_null() {
+            return Err(Error::new(Status::NullPointer, "volume is NULL"));
+        }
+        let cell = index(cell, c.cell_count()).map_err(|s| no_such("cell", cell, c.cell_count(), s))?;
+        unsafe { put(volume, keep(state, &exact_values::cell_volume_string(c, CellId::of(cell)))) };
+        Ok(())
     })
+}
+
+/// Structure, then areas and volumes by residues.
+pub fn check(c: &Complex) -> Result<(), Error> {
+    complex::check(c).and_then(|()| check_volumes(c)).map_err(Error::inconsistent)
+}
+
+/// Keeps a string in the context; its address.
+pub fn keep(state: &mut State, text: &str) -> *const c_char {
+    state.strings[0] = c_string(text);
+    state.strings[0].as_ptr()
+}
+
+fn null_complex(status: Status) -> Error {
+    Error::new(status, "complex is NULL")
+}
+
+fn no_such(what: &str, i: i32, count: usize, status: Status) -> Error {
+    Error::new(status, format!("{what} {i} is not there: {count} in all, counted from 0"))
 }

@@ -1,18 +1,30 @@
 //! The noun `lap_mesh`: a closed triangle mesh, validated once, never changed afterwards.
 
 use super::context::{State, lap_context, with_context};
+use super::derived::keep;
 use super::guard::{Host, guard};
 use super::view::{address, handle, input, into_handle, put, read_options, write_options};
 use crate::base::{Error, Status};
+use crate::complex::{exact_values, solid_euler};
+use crate::exact::round_rational;
 use crate::mesh::{self, MeshInput, MeshOptions, TriMesh};
+use rug::Rational;
 use std::ffi::c_char;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// A closed triangle mesh that bounds a solid: the triangles of every edge balance in orientation, solids are oriented
 /// outward and voids inward. Any genus, several components, voids, non-manifold edges and vertices. Immutable: a const
 /// handle may be used from many threads at once.
 pub struct lap_mesh {
     pub mesh: Arc<TriMesh>,
+    volume: OnceLock<Rational>,
+    euler: OnceLock<i64>,
+}
+
+impl lap_mesh {
+    fn volume(&self) -> &Rational {
+        self.volume.get_or_init(|| exact_values::mesh_volume(&self.mesh))
+    }
 }
 
 /// Options of lap_mesh_new; filled by lap_mesh_options_init.
@@ -77,7 +89,9 @@ pub unsafe extern "C" fn lap_mesh_new(
         unsafe { put(mesh, std::ptr::null_mut()) };
         let arrays = unsafe { Arrays::borrow(n_vertices, xyz, n_triangles, indices, tags, options)? };
         let built = build(state, host, &arrays)?;
-        unsafe { put(mesh, into_handle(lap_mesh { mesh: Arc::new(built) })) };
+        unsafe {
+            put(mesh, into_handle(lap_mesh { mesh: Arc::new(built), volume: OnceLock::new(), euler: OnceLock::new() }))
+        };
         Ok(())
     })
 }
@@ -270,15 +284,17 @@ pub unsafe extern "C" fn lap_mesh_triangles(
 
 /// The volume of the solid, in cubed units of the input: the double nearest to the exact volume.
 ///
-/// Errors: LAP_ERR_NULL_POINTER. Threads: any. Cost: one exact sum over the triangles.
+/// Errors: LAP_ERR_NULL_POINTER. Threads: any. Cost: an exact sum over
+/// the triangles at the first call, then none.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn lap_mesh_volume(mesh: *const lap_mesh, volume: *mut f64) -> i32 {
     guard(|_| {
-        let _ = unsafe { handle(mesh) }?;
+        let mesh = unsafe { handle(mesh) }?;
         if volume.is_null() {
             return Err(Status::NullPointer);
         }
-        Err(Status::Internal)
+        unsafe { put(volume, round_rational(mesh.volume())) };
+        Ok(())
     })
 }
 
@@ -286,33 +302,36 @@ pub unsafe extern "C" fn lap_mesh_volume(mesh: *const lap_mesh, volume: *mut f64
 ///
 /// volume: valid until the next call with this context. A GMP or CGAL rational reads it.
 ///
-/// Errors: LAP_ERR_NULL_POINTER, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: one exact sum over the triangles.
+/// Errors: LAP_ERR_NULL_POINTER, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: an exact sum over
+/// the triangles at the first call, then none.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn lap_mesh_volume_exact(
     context: *mut lap_context,
     mesh: *const lap_mesh,
     volume: *mut *const c_char,
 ) -> i32 {
-    with_context(context, |_, _| {
-        let _ = unsafe { handle(mesh) }.map_err(|s| Error::new(s, "mesh is NULL"))?;
+    with_context(context, |state, _| {
+        let mesh = unsafe { handle(mesh) }.map_err(|s| Error::new(s, "mesh is NULL"))?;
         if volume.is_null() {
             return Err(Error::new(Status::NullPointer, "volume is NULL"));
         }
-        Err(Error::new(Status::Internal, "not there yet"))
+        unsafe { put(volume, keep(state, &mesh.volume().to_string())) };
+        Ok(())
     })
 }
 
 /// The Euler characteristic of the solid, by the expression of lap_complex_euler: ball 1, ball with a void 2, solid
 /// torus 0, two tetrahedra sharing a vertex 1.
 ///
-/// Errors: LAP_ERR_NULL_POINTER. Threads: any. Cost: linear.
+/// Errors: LAP_ERR_NULL_POINTER. Threads: any. Cost: linear at the first call, then none.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn lap_mesh_euler(mesh: *const lap_mesh, euler: *mut i64) -> i32 {
     guard(|_| {
-        let _ = unsafe { handle(mesh) }?;
+        let mesh = unsafe { handle(mesh) }?;
         if euler.is_null() {
             return Err(Status::NullPointer);
         }
-        Err(Status::Internal)
+        unsafe { put(euler, *mesh.euler.get_or_init(|| solid_euler(&mesh.mesh))) };
+        Ok(())
     })
 }

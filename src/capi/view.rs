@@ -1,7 +1,7 @@
 //! Between our arrays and C's pointers. All raw writes of the C boundary go through `put`.
 
-use crate::base::{CellId, ComponentId, EdgeId, PlaneId, Status, VertexId};
-use crate::complex::HalfFace;
+use crate::base::{CellId, ComponentId, EdgeId, FaceId, PlaneId, Status, VertexId};
+use crate::complex::{HalfCorner, HalfFace};
 
 /// Writes through an output pointer, unless the caller does not want that output.
 ///
@@ -27,7 +27,9 @@ unsafe impl ReadAs<i32> for EdgeId {}
 unsafe impl ReadAs<i32> for PlaneId {}
 unsafe impl ReadAs<i32> for CellId {}
 unsafe impl ReadAs<i32> for ComponentId {}
+unsafe impl ReadAs<i32> for FaceId {}
 unsafe impl ReadAs<i32> for HalfFace {}
+unsafe impl ReadAs<i32> for HalfCorner {}
 unsafe impl ReadAs<i64> for i64 {}
 unsafe impl ReadAs<f64> for f64 {}
 unsafe impl ReadAs<u8> for u8 {}

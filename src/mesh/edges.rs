@@ -105,34 +105,37 @@ fn emit_bucket(lo: u32, bucket: &[u64], table: &mut EdgeTable) {
     }
 }
 
-impl EdgeTable {
-    /// Edges rise strictly, uses rise by triangle, sides and directions agree with the triangles, and each side of
-    /// each triangle is used once.
-    pub fn check(&self, triangles: &[[VertexId; 3]]) -> Result<(), String> {
-        self.edge_uses.check()?;
-        if self.edge_uses.len() != self.edges.len() || self.triangle_edges.len() != triangles.len() {
-            return Err("edge table: lengths differ".into());
-        }
-        if self.edges.windows(2).any(|w| w[0] >= w[1]) || self.edges.iter().any(|e| e[0] >= e[1]) {
-            return Err("edge table: edges are not sorted".into());
-        }
-        for (e, uses) in self.edge_uses.rows().enumerate() {
-            if uses.is_empty() || uses.windows(2).any(|w| w[0].triangle > w[1].triangle) {
-                return Err(format!("edge {e}: its uses are not sorted"));
-            }
-            for u in uses {
-                let corners = triangles[u.triangle.at()];
-                let (from, to) = (corners[u.side()], corners[(u.side() + 1) % 3]);
-                let expected = if u.forward() { [from, to] } else { [to, from] };
-                if self.edges[e] != expected || self.triangle_edges[u.triangle.at()][u.side()] != EdgeId::of(e) {
-                    return Err(format!("edge {e}: a use does not match its triangle {}", u.triangle.0));
-                }
-            }
-        }
-        let sides = triangles.iter().flat_map(|&[a, b, c]| [a != b, b != c, c != a]).filter(|&s| s).count();
-        if sides != self.edge_uses.items.len() {
-            return Err("edge table: the number of uses is not the number of sides".into());
-        }
-        Ok(())
+/// Edges rise strictly, uses rise by triangle, sides and directions agree with the triangles, and each side of each
+/// triangle is used once.
+pub fn check_edges(
+    triangles: &[[VertexId; 3]],
+    edges: &[[VertexId; 2]],
+    triangle_edges: &[[EdgeId; 3]],
+    edge_uses: &Csr<EdgeUse>,
+) -> Result<(), String> {
+    edge_uses.check()?;
+    if edge_uses.len() != edges.len() || triangle_edges.len() != triangles.len() {
+        return Err("edges: lengths differ".into());
     }
+    if edges.windows(2).any(|w| w[0] >= w[1]) || edges.iter().any(|e| e[0] >= e[1]) {
+        return Err("edges are not sorted".into());
+    }
+    for (e, uses) in edge_uses.rows().enumerate() {
+        if uses.is_empty() || uses.windows(2).any(|w| w[0].triangle > w[1].triangle) {
+            return Err(format!("edge {e}: its uses are not sorted"));
+        }
+        for u in uses {
+            let corners = triangles[u.triangle.at()];
+            let (from, to) = (corners[u.side()], corners[(u.side() + 1) % 3]);
+            let expected = if u.forward() { [from, to] } else { [to, from] };
+            if edges[e] != expected || triangle_edges[u.triangle.at()][u.side()] != EdgeId::of(e) {
+                return Err(format!("edge {e}: a use does not match its triangle {}", u.triangle.0));
+            }
+        }
+    }
+    let sides = triangles.iter().flat_map(|&[a, b, c]| [a != b, b != c, c != a]).filter(|&s| s).count();
+    if sides != edge_uses.items.len() {
+        return Err("the number of edge uses is not the number of sides".into());
+    }
+    Ok(())
 }

@@ -99,4 +99,65 @@ impl TriMesh {
         let [a, b, c] = self.triangles[t.at()];
         [self.vertices[a.at()], self.vertices[b.at()], self.vertices[c.at()]]
     }
+
+    /// What [`build`] promises: sorted adjacency that matches the triangles, balanced edges, vertices all used and within
+    /// the bounding box, shells numbered by lowest triangle within one component, and an anchor tree for voids.
+    pub fn check(&self) -> Result<(), String> {
+        edges::check_edges(&self.triangles, &self.edges, &self.triangle_edges, &self.edge_uses)?;
+        let balance = |uses: &[EdgeUse]| 2 * uses.iter().filter(|u| u.forward()).count() == uses.len();
+        if let Some(e) = self.edge_uses.rows().position(|uses| !balance(uses)) {
+            return Err(format!("edge {e} is not balanced"));
+        }
+        let mut used = vec![false; self.vertices.len()];
+        self.triangles.iter().flatten().for_each(|v| used[v.at()] = true);
+        if used.contains(&false) || self.vertex_source.len() != self.vertices.len() {
+            return Err("a vertex is not used or has no source".into());
+        }
+        if self.vertex_source.windows(2).any(|w| w[0] >= w[1]) {
+            return Err("vertices are not in input order".into());
+        }
+        let [lo, hi] = self.bbox;
+        if self.vertices.iter().any(|x| (0..3).any(|i| !(lo[i] <= x[i] && x[i] <= hi[i]))) {
+            return Err("a vertex is outside the bounding box".into());
+        }
+        if self.triangle_shell.len() != self.triangles.len()
+            || !(self.tags.is_empty() || self.tags.len() == self.triangles.len())
+        {
+            return Err("lengths differ".into());
+        }
+        self.check_shells()
+    }
+
+    fn check_shells(&self) -> Result<(), String> {
+        let mut next = 0;
+        for (t, s) in self.triangle_shell.iter().enumerate() {
+            if s.at() == next {
+                if self.shells.get(next).is_none_or(|s| s.triangle != TriangleId::of(t)) {
+                    return Err(format!("shell {next} does not start at triangle {t}"));
+                }
+                next += 1;
+            } else if s.at() > next {
+                return Err(format!("shell {} is numbered too early", s.0));
+            }
+        }
+        if next != self.shells.len() || self.shells.iter().any(|s| s.component.at() >= self.component_count) {
+            return Err("the number of shells or components is wrong".into());
+        }
+        for start in 0..self.shells.len() {
+            let mut s = start;
+            let mut steps = 0;
+            while !self.shells[s].outer {
+                let Some(anchor) = self.shells[s].anchor else { return Err(format!("void {s} has no anchor")) };
+                if self.triangle_shell[anchor.from.at()].at() != s {
+                    return Err(format!("the anchor of void {s} starts elsewhere"));
+                }
+                s = self.triangle_shell[anchor.hit.at()].at();
+                steps += 1;
+                if steps > self.shells.len() {
+                    return Err(format!("the anchors from void {start} go in a circle"));
+                }
+            }
+        }
+        Ok(())
+    }
 }

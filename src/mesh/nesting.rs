@@ -69,7 +69,7 @@ fn enclosing(mesh: &TriMesh, scene: Scene) -> Result<Csr<ShellId>> {
             scene.crossings(&start, |t| mesh.triangle_shell[t.at()] != s, &mut crossings).is_ok()
         });
         if !clean {
-            return Err(contradiction(mesh, shell));
+            return Err(contradiction(shell));
         }
         counts.clear();
         counts.extend(crossings.iter().map(|c| (mesh.triangle_shell[c.triangle.at()], if c.leaves { 1 } else { -1 })));
@@ -84,9 +84,8 @@ fn enclosing(mesh: &TriMesh, scene: Scene) -> Result<Csr<ShellId>> {
     Ok(around)
 }
 
-fn contradiction(mesh: &TriMesh, shell: &Shell) -> Error {
+fn contradiction(shell: &Shell) -> Error {
     let t = shell.triangle.0;
-    let _ = mesh;
     Error::inconsistent(format!(
         "the shell of triangle {t} touches or crosses other triangles: no ray from it is clean (run the self-intersection \
          check)"
@@ -131,7 +130,7 @@ fn anchors(mesh: &TriMesh, scene: Scene) -> Result<Vec<Option<Anchor>>> {
     let mut rank = 0;
     while !waiting.is_empty() {
         if rank == RANKS {
-            return Err(contradiction(mesh, &mesh.shells[waiting[0]]));
+            return Err(contradiction(&mesh.shells[waiting[0]]));
         }
         let before = waiting.len();
         waiting.retain(|&s| {

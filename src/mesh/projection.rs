@@ -57,22 +57,24 @@ pub fn collinear(a: &[f64; 3], b: &[f64; 3], c: &[f64; 3]) -> bool {
     exact::collinear(a, b, c)
 }
 
-/// An axis along which a triangle, known not to be degenerate, is seen with area; and how it turns there.
+/// The axis along which a triangle shows most area, in doubles: a good guess, nothing more.
 #[inline]
-pub fn open_axis(t: &[[f64; 3]; 3]) -> (usize, Sign) {
-    // The axis of the largest rounded component is nearly always one; the others are there for when it is not.
+pub fn largest_axis(t: &[[f64; 3]; 3]) -> usize {
     let u: [f64; 3] = std::array::from_fn(|i| t[1][i] - t[0][i]);
     let v: [f64; 3] = std::array::from_fn(|i| t[2][i] - t[0][i]);
     let size = |axis: usize| {
         let (i, j) = seen_along(axis);
         (u[i] * v[j] - u[j] * v[i]).abs()
     };
-    let mut best = 0;
-    for axis in 1..3 {
-        if size(axis) > size(best) {
-            best = axis;
-        }
-    }
+    let best = if size(1) > size(0) { 1 } else { 0 };
+    if size(2) > size(best) { 2 } else { best }
+}
+
+/// An axis along which a triangle, known not to be degenerate, is seen with area; and how it turns there.
+#[inline]
+pub fn open_axis(t: &[[f64; 3]; 3]) -> (usize, Sign) {
+    // The others are there for when the guess is wrong.
+    let best = largest_axis(t);
     for k in 0..3 {
         let axis = (best + k) % 3;
         let sign = turn(&t[0], &t[1], &t[2], axis);

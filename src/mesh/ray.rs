@@ -122,12 +122,12 @@ impl Origin {
         let minus = |p: &[f64; 3], o: &[f64; 3]| -> [f64; 3] { std::array::from_fn(|i| p[i] - o[i]) };
         let (e, f, d) = (minus(&q[1], &q[0]), minus(&q[2], &q[0]), minus(&self.x, &q[0]));
         let (mut det, mut magnitude, mut moved) = (0.0, 0.0, 0.0);
-        for i in 0..3 {
+        for (i, (d, err)) in d.into_iter().zip(self.err).enumerate() {
             let (j, k) = seen_along(i);
             let (l, r) = (e[j] * f[k], e[k] * f[j]);
-            det += (l - r) * d[i];
-            magnitude += (l.abs() + r.abs()) * (d[i].abs() + self.err[i]);
-            moved += (l.abs() + r.abs()) * self.err[i];
+            det += (l - r) * d;
+            magnitude += (l.abs() + r.abs()) * (d.abs() + err);
+            moved += (l.abs() + r.abs()) * err;
         }
         // Nine roundings in each term. Underflow in a product is multiplied by a distance: refuse large ones.
         let bound = 16.0 * ROUNDOFF * magnitude + 2.0 * moved + projection::TINY;
@@ -145,9 +145,9 @@ impl Origin {
         };
         let (e, f, d) = (minus(&q[1], &q[0]), minus(&q[2], &q[0]), minus(p, &q[0]));
         let mut det = Rational::new();
-        for i in 0..3 {
+        for (i, d) in d.iter().enumerate() {
             let (j, k) = seen_along(i);
-            det += (Rational::from(&e[j] * &f[k]) - Rational::from(&e[k] * &f[j])) * &d[i];
+            det += (Rational::from(&e[j] * &f[k]) - Rational::from(&e[k] * &f[j])) * d;
         }
         sign_of(&det)
     }
@@ -230,8 +230,8 @@ fn cross(origin: &Origin, start: &RayStart, t: TriangleId, q: &[[f64; 3]; 3]) ->
     let axis = start.axis;
     let mut zero = false;
     let mut turns = Sign::Zero;
-    for i in 0..3 {
-        let s = origin.turn(&q[i], &q[(i + 1) % 3], axis);
+    for (i, a) in q.iter().enumerate() {
+        let s = origin.turn(a, &q[(i + 1) % 3], axis);
         if s == Sign::Zero {
             zero = true;
         } else if turns == Sign::Zero {
@@ -262,10 +262,10 @@ fn height(p: &[Rational; 3], q: &[[f64; 3]; 3], axis: usize) -> Rational {
     let minus = |i: usize, k: usize| Rational::from(&q[i][k] - &p[k]);
     let mut sum = Rational::new();
     let mut area = Rational::new();
-    for i in 0..3 {
+    for (i, corner) in q.iter().enumerate() {
         let (a, b) = ((i + 1) % 3, (i + 2) % 3);
         let turn = minus(a, u) * minus(b, v) - minus(b, u) * minus(a, v);
-        sum += Rational::from(&q[i][axis] * &turn);
+        sum += Rational::from(&corner[axis] * &turn);
         area += turn;
     }
     if area.is_zero() { sum } else { sum / area }

@@ -94,9 +94,8 @@ fn mixture(x: &[f64; 3]) -> u64 {
 pub fn degenerate(vertices: &[[f64; 3]], triangles: &[[VertexId; 3]], mut found: impl FnMut(usize)) {
     for (t, &[a, b, c]) in triangles.iter().enumerate() {
         let (pa, pb, pc) = (&vertices[a.at()], &vertices[b.at()], &vertices[c.at()]);
-        if a == b || b == c || c == a {
-            found(t);
-        } else if is_finite(pa) && is_finite(pb) && is_finite(pc) && collinear(pa, pb, pc) {
+        let repeated = a == b || b == c || c == a;
+        if repeated || ([pa, pb, pc].into_iter().all(is_finite) && collinear(pa, pb, pc)) {
             found(t);
         }
     }

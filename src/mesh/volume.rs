@@ -7,7 +7,7 @@
 //! Cost: some 20 flops per triangle for all shells in one pass; the exact case about a microsecond per triangle of the
 //! undecided shell.
 
-use super::projection::ROUNDOFF;
+use super::projection::{ROUNDOFF, seen_along};
 use crate::base::{Csr, VertexId};
 use crate::exact::Sign;
 use rug::Integer;
@@ -44,11 +44,11 @@ pub fn volume_signs(
         let (a, b, c) = (minus(a), minus(b), minus(c));
         let mut term = 0.0;
         let mut magnitude = 0.0;
-        for i in 0..3 {
-            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        for (i, a) in a.into_iter().enumerate() {
+            let (j, k) = seen_along(i);
             let (p, q) = (b[j] * c[k], b[k] * c[j]);
-            term += a[i] * (p - q);
-            magnitude += a[i].abs() * (p.abs() + q.abs());
+            term += a * (p - q);
+            magnitude += a.abs() * (p.abs() + q.abs());
         }
         let largest = a[0].abs().max(a[1].abs()).max(a[2].abs());
         let sum = &mut sums[shell as usize];
@@ -110,10 +110,10 @@ fn exact_sign(vertices: &[[f64; 3]], triangles: &[[VertexId; 3]], shell: &[u32])
     let mut sum = Integer::new();
     for t in members() {
         let [a, b, c] = t.map(|v| vertices[v.at()].map(integer));
-        for i in 0..3 {
-            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        for (i, a) in a.iter().enumerate() {
+            let (j, k) = seen_along(i);
             let minor = Integer::from(&b[j] * &c[k]) - Integer::from(&b[k] * &c[j]);
-            sum += &a[i] * minor;
+            sum += a * minor;
         }
     }
     match sum.cmp0() {

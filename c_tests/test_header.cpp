@@ -1,0 +1,52 @@
+/* Both headers, as C++17, with warnings as errors; and what the C++ header adds: exceptions, in both directions. */
+#include "lapidary.hpp"
+
+#include "lapidary.h"
+
+#include <limits>
+
+int main()
+{
+    const std::vector<double> xyz = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+    const std::vector<std::int32_t> indices = {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3};
+    int failures = 0;
+    const auto check = [&](bool holds) { failures += holds ? 0 : 1; };
+
+    lapidary::context context(2);
+    check(context.threads() == 2);
+    const lapidary::mesh mesh(context, xyz, indices);
+    check(mesh.counts().edges == 6 && mesh.bounds()[5] == 1);
+
+    /* A status becomes an exception that names the defects. */
+    try {
+        std::vector<double> bad = xyz;
+        bad[4] = std::numeric_limits<double>::infinity();
+        lapidary::mesh none(context, bad, indices);
+        check(false);
+    } catch (const lapidary::error &e) {
+        check(e.status() == LAP_ERR_BAD_MESH && e.defects().size() == 1 && e.defects()[0].ids[0] == 1);
+        check(lapidary::defect_name(e.defects()[0].kind) == "LAP_DEFECT_NON_FINITE_COORDINATE");
+    }
+
+    /* An exception of a callback cancels the call and comes out of it; a false cancels. */
+    struct stop {};
+    context.set_progress([](const char *, double) -> bool { throw stop(); });
+    try {
+        lapidary::cut none(context, mesh, {1, 0, 0, -0.5});
+        check(false);
+    } catch (const stop &) {
+    }
+    context.set_progress([](const char *, double) { return false; });
+    try {
+        lapidary::cut none(context, mesh, {1, 0, 0, -0.5});
+        check(false);
+    } catch (const lapidary::error &e) {
+        check(e.status() == LAP_ERR_CANCELLED);
+    }
+    int calls = 0;
+    context.set_progress([&](const char *, double) { return ++calls > 0; });
+    lapidary::context moved = std::move(context);
+    const lapidary::cut cut(moved, mesh, {1, 0, 0, -0.5});
+    check(calls > 0 && cut.complex().counts().cells == 2 && cut.plane_map().size() == 1 && !cut.stages().empty());
+    return failures;
+}
