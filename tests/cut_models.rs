@@ -129,7 +129,7 @@ fn all_plane_sets_on_real_models() {
         if !everything && entry["triangles"].as_u64().unwrap() > 3000 {
             continue;
         }
-        let mut soup = common::read_off(&folder.join(name)).unwrap();
+        let mut soup = common::read_mesh(&folder.join(name)).unwrap();
         let mesh = match common::build_soup(&soup, Default::default()) {
             Ok(mesh) => mesh,
             // A few files are inside out as a whole: turned, they must be valid.

@@ -118,6 +118,34 @@ pub fn read_off(path: &Path) -> Result<Soup, String> {
     parse_off(&read_text(path)?).map_err(|e| format!("{}: {e}", path.display()))
 }
 
+/// Reads binary STL: a triangle is a normal, three corners (32-bit floats) and two bytes.
+pub fn read_stl(path: &Path) -> Result<Soup, String> {
+    let bytes = std::fs::read(path).map_err(|e| format!("{}: {e}", path.display()))?;
+    let count = bytes.get(80..84).map(|b| u32::from_le_bytes(b.try_into().unwrap()) as usize).unwrap_or(usize::MAX);
+    if bytes.len() != count.saturating_mul(50).saturating_add(84) {
+        return Err(format!("{}: not binary STL", path.display()));
+    }
+    let mut polygons = Polygons::default();
+    for triangle in bytes[84..].chunks_exact(50) {
+        polygons.starts.push(polygons.corners.len());
+        for corner in triangle[12..48].chunks_exact(12) {
+            let x = |i: usize| f64::from(f32::from_le_bytes(corner[4 * i..4 * i + 4].try_into().unwrap()));
+            polygons.corners.push(polygons.vertices.len() as i32);
+            polygons.vertices.push([x(0), x(1), x(2)]);
+        }
+    }
+    Ok(polygons.soup())
+}
+
+/// Reads OFF, OBJ or STL by the file's ending.
+pub fn read_mesh(path: &Path) -> Result<Soup, String> {
+    match path.extension().and_then(|e| e.to_str()) {
+        Some("obj") => read_obj(path),
+        Some("stl") => read_stl(path),
+        _ => read_off(path),
+    }
+}
+
 pub fn read_obj(path: &Path) -> Result<Soup, String> {
     parse_obj(&read_text(path)?).map_err(|e| format!("{}: {e}", path.display()))
 }
