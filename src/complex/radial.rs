@@ -12,7 +12,7 @@
 //! Two faces in one half-plane would be one face: they occur only where the input intersects itself.
 
 use super::{Complex, HalfFace, SupportId};
-use crate::base::{Csr, EdgeId, Error, FaceId, Result, VertexId};
+use crate::base::{EdgeId, Error, FaceId, Result, VertexId};
 use crate::exact::{self, Direction, Sign, counters, sort_cyclic};
 use std::cmp::Ordering;
 
@@ -36,20 +36,60 @@ impl FaceUse {
     }
 }
 
-/// The uses of every edge, by rising corner.
-pub fn edge_uses(c: &Complex) -> Csr<FaceUse> {
-    let uses = (0..c.face_count()).flat_map(|f| {
-        let face = FaceId::of(f);
-        c.loops_of(face).flat_map(move |l| {
-            let range = c.corners_of(l);
-            range.filter(|&k| c.corner_edges[k].is_some()).map(move |k| {
+/// The uses of every edge: corners chained per edge, so that the many edges with two uses cost two reads and no sort.
+pub struct EdgeUses {
+    /// The last corner that walks each edge.
+    last: Vec<u32>,
+    /// The corner before it that walks the same edge.
+    before: Vec<u32>,
+    corner_face: Vec<FaceId>,
+}
+
+impl EdgeUses {
+    pub fn new(c: &Complex) -> Self {
+        const NONE: u32 = u32::MAX;
+        let corners = c.corner_vertices.len();
+        let mut uses = EdgeUses {
+            last: vec![NONE; c.edge_count()],
+            before: Vec::with_capacity(corners),
+            corner_face: Vec::with_capacity(corners),
+        };
+        for f in 0..c.face_count() {
+            let face = FaceId::of(f);
+            let range = c.face_corners(face);
+            uses.corner_face.resize(range.end, face);
+            for k in range {
                 let edge = c.corner_edges[k];
-                let forward = c.edges[edge.at()][0] == c.corner_vertices[k];
-                (edge.at(), FaceUse { face, forward, corner: k as u32 })
-            })
-        })
-    });
-    Csr::from_pairs(c.edge_count(), uses)
+                let before = if edge.is_none() { NONE } else { std::mem::replace(&mut uses.last[edge.at()], k as u32) };
+                uses.before.push(before);
+            }
+        }
+        uses
+    }
+
+    /// The two faces of an edge that has two uses, both by surface faces: the one wedge there needs no more.
+    #[inline]
+    pub fn surface_pair(&self, c: &Complex, edge: EdgeId) -> Option<[FaceId; 2]> {
+        let last = *self.last.get(edge.at())? as usize;
+        let before = *self.before.get(last)? as usize;
+        if *self.before.get(before)? != u32::MAX {
+            return None;
+        }
+        let faces = [self.corner_face[before], self.corner_face[last]];
+        faces.iter().all(|f| matches!(c.face_support[f.at()], SupportId::Triangle(_))).then_some(faces)
+    }
+
+    /// All uses of an edge, by rising corner.
+    pub fn row(&self, c: &Complex, edge: EdgeId, row: &mut Vec<FaceUse>) {
+        row.clear();
+        let mut k = self.last[edge.at()];
+        while k != u32::MAX {
+            let forward = c.edges[edge.at()][0] == c.corner_vertices[k as usize];
+            row.push(FaceUse { face: self.corner_face[k as usize], forward, corner: k });
+            k = self.before[k as usize];
+        }
+        row.reverse();
+    }
 }
 
 fn on_surface(c: &Complex, u: FaceUse) -> bool {
@@ -70,7 +110,8 @@ pub fn wedge_pairs(
         && on_surface(c, b)
     {
         counters::count_topology(counters::Predicate::RadialOrder);
-        pair(0, HalfFace::new(a.face, false), 1, HalfFace::new(b.face, false));
+        let (i, j) = if a.forward { (1, 0) } else { (0, 1) };
+        pair(i, HalfFace::new(uses[i as usize].face, false), j, HalfFace::new(uses[j as usize].face, false));
         return Ok(());
     }
     if uses.len() == 3

@@ -6,9 +6,10 @@
 //!
 //! Cost: linear in the face corners, times the inverse Ackermann function.
 
-use super::radial::{FaceUse, edge_uses, wedge_pairs};
+use super::radial::{EdgeUses, wedge_pairs};
 use super::{Complex, HalfFace, SupportId};
 use crate::base::{CellId, Csr, EdgeId, Error, FaceId, Result, ShellId, UnionFind};
+use crate::exact::counters;
 
 /// The shell of each half-face (`NONE` for the front of a surface face), and the lowest half-face of each shell.
 pub struct Shells {
@@ -17,15 +18,21 @@ pub struct Shells {
 }
 
 pub fn find_shells(c: &Complex) -> Result<Shells> {
-    let uses = edge_uses(c);
+    let uses = EdgeUses::new(c);
     let mut classes = UnionFind::new(2 * c.face_count());
-    let mut scratch = Vec::new();
-    for e in 0..c.edge_count() {
-        let row: &[FaceUse] = uses.row(e);
-        wedge_pairs(c, EdgeId::of(e), row, &mut scratch, |_, a, _, b| {
+    let (mut row, mut scratch, mut simple) = (Vec::new(), Vec::new(), 0);
+    for edge in (0..c.edge_count()).map(EdgeId::of) {
+        if let Some([a, b]) = uses.surface_pair(c, edge) {
+            classes.union(HalfFace::new(a, false).at(), HalfFace::new(b, false).at());
+            simple += 1;
+            continue;
+        }
+        uses.row(c, edge, &mut row);
+        wedge_pairs(c, edge, &row, &mut scratch, |_, a, _, b| {
             classes.union(a.at(), b.at());
         })?;
     }
+    counters::count_many(counters::Predicate::RadialOrder, counters::Tier::Topology, simple);
     let mut shells = Shells { of: vec![ShellId::NONE; 2 * c.face_count()], lowest: Vec::new() };
     for f in 0..c.face_count() {
         let one_sided = matches!(c.face_support[f], SupportId::Triangle(_));

@@ -9,7 +9,7 @@ use super::lines::{InnerPoints, Lines};
 use super::surface::Surface;
 use super::triangles::edge_piece;
 use crate::base::{Csr, EdgeId, PlaneId, TriangleId, VertexId};
-use crate::complex::{Complex, Origin, SupportId};
+use crate::complex::{Complex, SupportId};
 use crate::mesh::TriMesh;
 use std::sync::Arc;
 
@@ -84,15 +84,14 @@ fn plane_of_triangle(surface: &Surface, t: TriangleId) -> PlaneId {
     common.map(|k| surface.knives.ids[k.at()]).min().unwrap_or(PlaneId::NONE)
 }
 
-/// A complex without cells yet, and the first face id of each section.
+/// A complex without cells and without the vertices' origins and coordinates yet (they are still read, and are
+/// moved in at the end), and the first face id of each section.
 pub fn assemble(
     mesh: &Arc<TriMesh>,
     surface: &Surface,
     lines: &Lines,
     inner: &InnerPoints,
     sections: &[SectionFaces],
-    origins: Vec<Origin>,
-    coords: Vec<[f64; 3]>,
 ) -> (Complex, Vec<u32>) {
     let sub = surface.sub;
     let mut c = Complex {
@@ -100,8 +99,6 @@ pub fn assemble(
         planes: surface.input_planes.to_vec(),
         vertex_planes: vertex_planes(surface, inner),
         edges: edges(surface, lines),
-        origins,
-        coords,
         face_loops: vec![0],
         loop_offsets: vec![0],
         ..Default::default()

@@ -62,42 +62,46 @@ pub fn cut(mesh: &Arc<TriMesh>, planes: &[Plane], _options: &CutOptions, run: &m
     limit(numbering.first_chord_piece as usize + sub.pieces.len())?;
     run.stage("round", 0.4)?;
     let mut origins = surface::surface_origins(mesh, &knives, &points, &sub);
-    let mut coords = mesh.vertices.clone();
+    let mut coords = Vec::with_capacity(origins.len());
+    coords.extend_from_slice(&mesh.vertices);
     round_from(mesh, planes, &origins, &mut coords);
-    let (surface_vertices, surface_origins, surface_coords) = (origins.len(), origins.clone(), coords.clone());
-    let surface = surface::Surface {
+    let surface_count = origins.len();
+    let vertex_edges = OnceLock::new();
+    let ground = surface::Ground {
         mesh,
         knives: &knives,
         classified: &classified,
         points: &points,
         sub: &sub,
         numbering,
-        origins: &surface_origins,
-        coords: &surface_coords,
         input_planes: planes,
-        vertex_edges: OnceLock::new(),
+        vertex_edges: &vertex_edges,
     };
     run.stage("lines", 0.5)?;
+    let surface = ground.with(&origins, &coords);
     let contents = sections::plane_contents(&surface);
     let (mut graphs, mut lines) = lines::sections_and_lines(&surface, &contents)?;
-    let inner = lines::number_inner(&surface, &mut lines, surface_vertices as u32);
-    limit(surface_vertices + inner.names.len())?;
+    let inner = lines::number_inner(&surface, &mut lines, surface_count as u32);
+    limit(surface_count + inner.names.len())?;
     let first_line_edge = numbering.first_chord_piece + sub.pieces.len() as u32;
     limit(first_line_edge as usize + lines.ends.len() + lines.points.items.len())?;
     run.stage("round inner", 0.6)?;
     origins.extend(inner.names.iter().map(|&[p, q, r]| Origin::Planes(p, q, r)));
     round_from(mesh, planes, &origins, &mut coords);
     run.stage("faces", 0.65)?;
+    let surface = ground.with(&origins[..surface_count], &coords[..surface_count]);
     let all = faces::AllVertices { surface: &surface, origins: &origins, coords: &coords };
     let has_voids = mesh.shells.iter().any(|s| !s.outer);
     let section_faces = faces::section_faces(&all, &contents, &mut graphs, &lines, first_line_edge, has_voids)?;
     run.stage("assemble", 0.75)?;
-    let (mut complex, first_face) =
-        assemble::assemble(mesh, &surface, &lines, &inner, &section_faces, origins.clone(), coords.clone());
+    let (mut complex, first_face) = assemble::assemble(mesh, &surface, &lines, &inner, &section_faces);
     limit(complex.corner_vertices.len())?;
+    (complex.origins, complex.coords) = (origins, coords);
     run.stage("cells", 0.85)?;
     let found = shells::find_shells(&complex)?;
     run.stage("voids", 0.95)?;
+    let surface = ground.with(&complex.origins[..surface_count], &complex.coords[..surface_count]);
+    let all = faces::AllVertices { surface: &surface, origins: &complex.origins, coords: &complex.coords };
     let located = voids::Located { all: &all, sections: &graphs, faces: &section_faces, first_face: &first_face };
     let hosts = voids::hosts(&complex, &found, &located)?;
     shells::form_cells(&mut complex, &found, &hosts)?;

@@ -13,20 +13,43 @@ use crate::mesh::TriMesh;
 use std::cmp::Ordering;
 use std::sync::OnceLock;
 
-/// What the stages after the surface read.
-pub struct Surface<'a> {
+/// What the stages up to the surface have found.
+#[derive(Clone, Copy)]
+pub struct Ground<'a> {
     pub mesh: &'a TriMesh,
     pub knives: &'a Knives,
     pub classified: &'a Classified,
     pub points: &'a EdgePoints,
     pub sub: &'a Subdivision,
     pub numbering: Numbering,
+    pub input_planes: &'a [exact::Plane],
+    /// Mesh edges at each mesh vertex; made when a plane first touches a vertex without crossing the surface there.
+    pub vertex_edges: &'a OnceLock<Csr<EdgeId>>,
+}
+
+impl<'a> Ground<'a> {
+    /// With the surface's vertices, which move while inner ones are added behind them.
+    pub fn with<'b>(&self, origins: &'b [Origin], coords: &'b [[f64; 3]]) -> Surface<'b>
+    where
+        'a: 'b,
+    {
+        Surface { ground: *self, origins, coords }
+    }
+}
+
+/// What the stages after the surface read.
+pub struct Surface<'a> {
+    ground: Ground<'a>,
     /// Symbolic points, by vertex id; the coordinates are their correct roundings.
     pub origins: &'a [Origin],
     pub coords: &'a [[f64; 3]],
-    pub input_planes: &'a [exact::Plane],
-    /// Mesh edges at each mesh vertex; made when a plane first touches a vertex without crossing the surface there.
-    pub vertex_edges: OnceLock<Csr<EdgeId>>,
+}
+
+impl<'a> std::ops::Deref for Surface<'a> {
+    type Target = Ground<'a>;
+    fn deref(&self) -> &Ground<'a> {
+        &self.ground
+    }
 }
 
 impl Surface<'_> {
