@@ -20,7 +20,9 @@ fn counts_on_real_models() {
     for case in cases {
         let name = case["mesh"].as_str().unwrap();
         let soup = match name.starts_with("x_") {
-            true => common::read_obj(&common::shared(&format!("data/meshes/{}.obj", &name[2..].trim_end_matches(".off"))).unwrap()),
+            true => common::read_obj(
+                &common::shared(&format!("data/meshes/{}.obj", &name[2..].trim_end_matches(".off"))).unwrap(),
+            ),
             false => common::read_off(&folder.join(name)),
         };
         let soup = soup.unwrap();
