@@ -67,9 +67,9 @@ inline std::int32_t show_progress(void* user, const char* stage, double fraction
   const int percent = static_cast<int>(100 * fraction);
   if (progress.terminal && (percent != progress.drawn || progress.stage != stage)) {
     const std::string done(static_cast<std::size_t>(percent) * 3 / 10, '#');
-    std::fprintf(stderr, "\r%s [%-30s] %3d %% %-12.12s", progress.title.c_str(), done.c_str(), percent, stage);
+    std::fprintf(stderr, "\r%-8s [%-30s] %3d %% %-28.28s", progress.title.c_str(), done.c_str(), percent, stage);
   } else if (!progress.terminal && progress.stage != stage) {
-    std::fprintf(stderr, "%s: %3d %% %s\n", progress.title.c_str(), percent, stage);
+    std::fprintf(stderr, "%-8s %3d %% %s\n", progress.title.c_str(), percent, stage);
   }
   progress.drawn = percent;
   progress.stage = stage;
@@ -78,7 +78,7 @@ inline std::int32_t show_progress(void* user, const char* stage, double fraction
 
 inline void end_progress(Progress& progress) {
   if (progress.terminal && progress.drawn >= 0)
-    std::fprintf(stderr, "\r%s [%-30s] 100 %% %-12s\n", progress.title.c_str(), std::string(30, '#').c_str(), "done");
+    std::fprintf(stderr, "\r%-8s [%-30s] 100 %% %-28s\n", progress.title.c_str(), std::string(30, '#').c_str(), "done");
 }
 
 struct Times {
