@@ -148,25 +148,29 @@ std::int64_t peak_bytes() {
   return static_cast<std::int64_t>(usage.ru_maxrss) * 1024; // Linux counts in KiB
 }
 
-// One run: flat arrays in, mesh and cut out, and what it took.
+// One run: flat arrays in, mesh and cut out, and what it took. `progress` may be null.
 struct Run {
   Handle<lap_mesh> mesh;
   Handle<lap_cut> cut;
   Times times;
 };
 
-Run run(lap_context* context, const Mesh& input, const std::vector<double>& planes) {
+Run run(lap_context* context, const Mesh& input, const std::vector<double>& planes, Progress* progress) {
   Run result;
   lap_mesh* mesh = nullptr;
   lap_cut* cut = nullptr;
+  if (progress) start_progress(*progress, "mesh");
   const auto start = std::chrono::steady_clock::now();
   must(context, lap_mesh_new(context, input.vertex_count(), input.coordinates.data(), input.triangle_count(),
                              input.triangles.data(), nullptr, nullptr, &mesh));
   result.mesh.reset(mesh);
   result.times.stages.emplace_back("mesh", seconds_since(start));
+  if (progress) end_progress(*progress);
+  if (progress) start_progress(*progress, "cut");
   must(context, lap_cut_new(context, mesh, static_cast<std::int64_t>(planes.size() / 4), planes.data(), nullptr, &cut));
   result.cut.reset(cut);
   result.times.total = seconds_since(start);
+  if (progress) end_progress(*progress);
   std::int32_t count = 0;
   must(context, lap_cut_stage_count(cut, &count));
   for (std::int32_t i = 0; i < count; ++i) {
@@ -222,17 +226,15 @@ int cut_mesh(const Options& options) {
   progress.terminal = isatty(STDERR_FILENO) != 0;
   must(context, lap_context_set_progress(context, show_progress, &progress));
   if (options.check) {
-    start_progress(progress, "checking the input");
+    start_progress(progress, "validate");
     must(context, lap_mesh_validate(context, input.vertex_count(), input.coordinates.data(), input.triangle_count(),
                                     input.triangles.data(), nullptr, nullptr));
     end_progress(progress);
   }
 
   // The first run counts decisions and shows progress; the timed runs that follow do neither.
-  start_progress(progress, "cutting");
   must(context, lap_context_counters_enable(context, 1));
-  Run best = run(context, input, planes);
-  end_progress(progress);
+  Run best = run(context, input, planes, &progress);
   report.counters = counters_of(context);
   must(context, lap_context_counters_enable(context, 0));
   must(context, lap_context_set_progress(context, nullptr, nullptr));
@@ -240,7 +242,7 @@ int cut_mesh(const Options& options) {
   for (long i = 0; i < options.repeat; ++i) {
     best.mesh.reset(); // one result at a time: the peak of memory is that of one run
     best.cut.reset();
-    Run next = run(context, input, planes);
+    Run next = run(context, input, planes, nullptr);
     if (i > 0 && best.times.total < next.times.total) next.times = std::move(best.times);
     best = std::move(next);
   }

@@ -67,9 +67,9 @@ inline std::int32_t show_progress(void* user, const char* stage, double fraction
   const int percent = static_cast<int>(100 * fraction);
   if (progress.terminal && (percent != progress.drawn || progress.stage != stage)) {
     const std::string done(static_cast<std::size_t>(percent) * 3 / 10, '#');
-    std::fprintf(stderr, "\r%s [%-30s] %3d %% %-12.12s", progress.title.c_str(), done.c_str(), percent, stage);
+    std::fprintf(stderr, "\r%-8s [%-30s] %3d %% %-28.28s", progress.title.c_str(), done.c_str(), percent, stage);
   } else if (!progress.terminal && progress.stage != stage) {
-    std::fprintf(stderr, "%s: %3d %% %s\n", progress.title.c_str(), percent, stage);
+    std::fprintf(stderr, "%-8s %3d %% %s\n", progress.title.c_str(), percent, stage);
   }
   progress.drawn = percent;
   progress.stage = stage;
@@ -78,13 +78,20 @@ inline std::int32_t show_progress(void* user, const char* stage, double fraction
 
 inline void end_progress(Progress& progress) {
   if (progress.terminal && progress.drawn >= 0)
-    std::fprintf(stderr, "\r%s [%-30s] 100 %% %-12s\n", progress.title.c_str(), std::string(30, '#').c_str(), "done");
+    std::fprintf(stderr, "\r%-8s [%-30s] 100 %% %-28s\n", progress.title.c_str(), std::string(30, '#').c_str(), "done");
 }
 
 struct Times {
   double total = 0;
   std::vector<std::pair<std::string, double>> stages;
 };
+
+// What the total holds beyond its stages: checks of the arguments, handing the result over.
+inline double outside_stages(const Times& times) {
+  double rest = times.total;
+  for (const auto& stage : times.stages) rest -= stage.second;
+  return rest;
+}
 
 using Counters = std::vector<std::pair<std::string, std::int64_t>>;
 
@@ -192,6 +199,7 @@ inline void print_table(const Report& r) {
   number("largest cell", r.volume_max);
   std::printf("time, ms (fastest of %ld, %ld thread%s)\n", r.repeat, r.threads, r.threads == 1 ? "" : "s");
   for (const auto& [name, seconds] : r.times.stages) std::printf("  %-24s %14.3f\n", name.c_str(), 1000 * seconds);
+  std::printf("  %-24s %14.3f\n", "outside the stages", 1000 * outside_stages(r.times));
   std::printf("  %-24s %14.3f\n", "total", 1000 * r.times.total);
   if (!r.statistics.empty()) {
     std::printf("how orders were found\n");
@@ -227,7 +235,7 @@ inline void write_json(const std::string& path, const Report& r) {
   // A stage may run more than once; its times add up.
   ordered_json stages = ordered_json::object();
   for (const auto& [name, seconds] : r.times.stages) stages[name] = seconds + (stages.contains(name) ? stages[name].get<double>() : 0.0);
-  json["seconds"] = {{"total", r.times.total}, {"stages", stages}, {"with_counters", r.counted_seconds}};
+  json["seconds"] = {{"total", r.times.total}, {"stages", stages}, {"outside_stages", outside_stages(r.times)}, {"with_counters", r.counted_seconds}};
   json["statistics"] = object(r.statistics);
   json["predicates"] = object(r.counters);
   json["peak_bytes"] = r.peak_bytes;

@@ -560,11 +560,14 @@ int32_t lap_cut_stage(const struct lap_cut *cut,
                       double *seconds);
 
 /*
- How many statistics there are (how orders were found: by topology alone, or numerically).
+ How many statistics there are: two per predicate, "predicate.topological" and "predicate.numerical": how many decisions
+ of this cut followed from topology alone, and how many were computed from numbers. All 0 unless the context counted
+ (lap_context_counters_enable).
 
  Errors: LAP_ERR_NULL_POINTER. Threads: any. Cost: none.
  */
-int32_t lap_cut_statistic_count(const struct lap_cut *cut, int32_t *count);
+int32_t lap_cut_statistic_count(const struct lap_cut *cut,
+                                int32_t *count);
 
 /*
  Statistic i, from 0: its name and its value.

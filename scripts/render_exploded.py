@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Renders an exploded view, as `cut_mesh --exploded FILE.vtp` writes it, to a PNG.
 
-    render_exploded.py EXPLODED.vtp PICTURE.png [--width 1600] [--azimuth 30] [--elevation 20] [--up y]
+    render_exploded.py EXPLODED.vtp PICTURE.png [--size 1600] [--azimuth 30] [--elevation 20] [--up y]
 
 One flat colour per cell, red tubes along the lines where planes meet the model, white background. Draws off screen, but
 Debian's VTK still wants an X server: call it as `xvfb-run -a render_exploded.py ...` on a machine without a display.
@@ -69,16 +69,25 @@ def light(renderer, azimuth, elevation, intensity):
     renderer.AddLight(lamp)
 
 
-def fill_frame(renderer, points, aspect, margin=0.03):
-    """Zooms and shifts the camera until the drawing fills the frame up to the margin: what ResetCamera leaves around the
-    bounding sphere is far more than a picture wants."""
-    camera = renderer.GetActiveCamera()
+def extent(camera, points, aspect):
+    """Lowest and highest x and y of the points in the picture, which runs from -1 to 1 both ways."""
     matrix = camera.GetCompositeProjectionTransformMatrix(aspect, -1, 1)
     low, high = [float("inf")] * 2, [float("-inf")] * 2
     for i in range(points.GetNumberOfPoints()):
-        x, y, z, w = matrix.MultiplyPoint((*points.GetPoint(i), 1.0))
+        x, y, _, w = matrix.MultiplyPoint((*points.GetPoint(i), 1.0))
         for k, c in enumerate((x / w, y / w)):
             low[k], high[k] = min(low[k], c), max(high[k], c)
+    return low, high
+
+
+def fill_frame(window, camera, points, longest, margin=0.025):
+    """Gives the window the drawing's proportions, its longer side `longest` pixels, and zooms and shifts the camera until
+    the drawing fills it up to the margin: what ResetCamera leaves around the bounding sphere is more than a picture wants."""
+    low, high = extent(camera, points, 1.0)
+    width, height = high[0] - low[0], high[1] - low[1]
+    size = [round(longest * side / max(width, height)) for side in (width, height)]
+    window.SetSize(*size)
+    low, high = extent(camera, points, size[0] / size[1])
     zoom = (2 - 2 * margin) / max(high[0] - low[0], high[1] - low[1])
     camera.Zoom(zoom)
     camera.SetWindowCenter(*[zoom * (a + b) / 2 for a, b in zip(low, high)])
@@ -88,8 +97,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("exploded")
     parser.add_argument("picture")
-    parser.add_argument("--width", type=int, default=1600)
-    parser.add_argument("--height", type=int, default=1200)
+    parser.add_argument("--size", type=int, default=1600, help="pixels of the longer side")
     parser.add_argument("--azimuth", type=float, default=30)
     parser.add_argument("--elevation", type=float, default=20)
     parser.add_argument("--up", choices="xyz", default="y")
@@ -171,9 +179,8 @@ def main():
     window = vtkRenderWindow()
     window.SetOffScreenRendering(1)
     window.SetMultiSamples(0)
-    window.SetSize(options.width, options.height)
     window.AddRenderer(renderer)
-    fill_frame(renderer, data.GetPoints(), options.width / options.height)
+    fill_frame(window, camera, data.GetPoints(), options.size)
     window.Render()
     grab = vtkWindowToImageFilter()
     grab.SetInput(window)

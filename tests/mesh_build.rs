@@ -252,6 +252,11 @@ fn magnitudes_from_one_end_to_the_other() {
         assert!(mesh.shells[0].outer && !mesh.shells[1].outer);
         assert_eq!(defects(&flipped(nested), checking()).len(), 1);
     }
+    // At the very end: differences and products overflow, and sums of three terms may.
+    let nested = together(&[cube(-f64::MAX, f64::MAX), flipped(cube(-1e-310, 1e308)), cube(0.0, 5e-324)]);
+    let mesh = build_soup(&nested, checking()).unwrap();
+    mesh.check().unwrap();
+    assert_eq!(mesh.shells.iter().map(|s| s.outer).collect::<Vec<_>>(), [true, false, true]);
 }
 
 #[test]

@@ -54,6 +54,8 @@ pub struct State {
     defect_ids: Vec<[i64; 3]>,
     counting: bool,
     counts: Counts,
+    /// Those of the last call alone.
+    pub last_counts: Counts,
     /// Exact strings of the last call.
     pub strings: [CString; 3],
 }
@@ -71,6 +73,7 @@ impl State {
             defect_ids: Vec::new(),
             counting: false,
             counts: Counts::ZERO,
+            last_counts: Counts::ZERO,
             strings: Default::default(),
         }
     }
@@ -111,6 +114,7 @@ impl State {
         body: impl FnOnce(&mut Run) -> Result<T, Error> + Send,
     ) -> Result<T, Error> {
         let pool = self.pool()?;
+        self.last_counts = Counts::ZERO;
         if !self.counting {
             return self.run_in(&pool, host, body);
         }
@@ -124,7 +128,8 @@ impl State {
             counters::enable(false);
             counters::take()
         });
-        counted.iter().for_each(|counts| self.counts.merge(counts));
+        counted.iter().for_each(|counts| self.last_counts.merge(counts));
+        self.counts.merge(&self.last_counts);
         result
     }
 

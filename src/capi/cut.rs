@@ -1,11 +1,15 @@
 //! The noun `lap_cut`: the cells into which planes divide a solid.
 
 use super::complex::lap_complex;
-use super::context::{lap_context, with_context};
+use super::context::{c_string, lap_context, with_context};
+use super::derived::check;
 use super::guard::guard;
 use super::mesh::{bad_options, lap_mesh};
-use super::view::{address, handle, index, input, put, read_options, write_options};
+use super::view::{address, handle, index, input, into_handle, put, read_options, write_options};
 use crate::base::{Error, PlaneId, Status};
+use crate::cut::{self, CutOptions};
+use crate::exact::Plane;
+use crate::exact::counters::{Counts, PREDICATES, Predicate, TIERS, Tier};
 use std::ffi::{CString, c_char};
 
 /// The cells into which planes divide a solid, and how they were found. Immutable: a const handle may be used from many
@@ -61,7 +65,7 @@ pub unsafe extern "C" fn lap_cut_new(
     options: *const lap_cut_options,
     cut: *mut *mut lap_cut,
 ) -> i32 {
-    with_context(context, |_, _| {
+    with_context(context, |state, host| {
         if cut.is_null() {
             return Err(Error::new(Status::NullPointer, "cut is NULL"));
         }
@@ -70,9 +74,32 @@ pub unsafe extern "C" fn lap_cut_new(
         let planes: &[[f64; 4]] = unsafe { input(planes.cast(), n_planes) }
             .map_err(|status| Error::new(status, format!("planes: NULL, or a bad count: {n_planes}")))?;
         let options = unsafe { read_options(options, DEFAULTS) }.map_err(bad_options)?;
-        let _ = (mesh, planes, options);
-        Err(Error::new(Status::Internal, "not there yet"))
+        let planes: Vec<Plane> = planes.iter().map(|&[a, b, c, d]| Plane { n: [a, b, c], d }).collect();
+        let made = state.run(host, |run| {
+            let made = cut::cut(&mesh.mesh, &planes, &CutOptions::default(), run)?;
+            if options.check != 0 {
+                check(&made.complex)?;
+            }
+            Ok(made)
+        })?;
+        let complex = lap_complex::new(made.complex, state.threads())
+            .map_err(|status| Error::new(status, "the result has more elements than 32-bit indices can number"))?;
+        let stages = made.stages.iter().map(|(name, seconds)| (c_string(name), *seconds)).collect();
+        let statistics = statistics(&state.last_counts);
+        unsafe { put(cut, into_handle(lap_cut { complex, plane_map: made.plane_map, stages, statistics })) };
+        Ok(())
     })
+}
+
+/// Per predicate, what topology knew and what had to be computed.
+fn statistics(counts: &Counts) -> Vec<(CString, i64)> {
+    let of = |&p: &Predicate| {
+        let known = counts.get(p, Tier::Topology);
+        let all: u64 = TIERS.iter().map(|&t| counts.get(p, t)).sum();
+        let name = |kind: &str| c_string(&format!("{}.{kind}", p.name()));
+        [(name("topological"), known as i64), (name("numerical"), (all - known) as i64)]
+    };
+    PREDICATES.iter().flat_map(of).collect()
 }
 
 /// Frees a cut and all that was borrowed from it, its complex included. NULL is allowed and does nothing.
@@ -162,7 +189,9 @@ pub unsafe extern "C" fn lap_cut_stage(
     })
 }
 
-/// How many statistics there are (how orders were found: by topology alone, or numerically).
+/// How many statistics there are: two per predicate, "predicate.topological" and "predicate.numerical": how many decisions
+/// of this cut followed from topology alone, and how many were computed from numbers. All 0 unless the context counted
+/// (lap_context_counters_enable).
 ///
 /// Errors: LAP_ERR_NULL_POINTER. Threads: any. Cost: none.
 #[unsafe(no_mangle)]

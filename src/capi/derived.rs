@@ -10,7 +10,8 @@ use super::guard::guard;
 use super::view::{address, handle, index, put};
 use crate::base::{CellId, Error, Status, VertexId};
 use crate::complex::{
-    self, Adjacency, Complex, FaceArrays, FaceStyle, Moments, adjacency, check_volumes, exact_values, faces_as, moments,
+    self, Adjacency, Complex, FaceArrays, FaceStyle, Moments, adjacency, check_volumes, exact_values, faces_as,
+    moments, solid_euler,
 };
 use std::ffi::c_char;
 use std::sync::OnceLock;
@@ -28,7 +29,8 @@ pub struct Derived {
     moments: OnceLock<Moments>,
     polygons: [OnceLock<Result<FaceArrays, String>>; 3],
     adjacency: OnceLock<Result<Adjacency, String>>,
-    euler: OnceLock<Result<i64, String>>,
+    /// Of the complex, and of the solid that was cut.
+    euler: OnceLock<Result<(i64, i64), String>>,
 }
 
 /// What `slot` holds; the first caller computes it.
@@ -192,10 +194,11 @@ pub unsafe extern "C" fn lap_complex_adjacency(
 pub unsafe extern "C" fn lap_complex_euler(complex: *const lap_complex, output: *mut i64, input: *mut i64) -> i32 {
     guard(|_| {
         let complex = unsafe { handle(complex) }?;
-        let found = *consistent(demand(complex, &complex.derived.euler, complex::euler)?)?;
+        let both = |c: &Complex| complex::euler(c).map(|output| (output, solid_euler(&c.mesh)));
+        let (of_output, of_input) = *consistent(demand(complex, &complex.derived.euler, both)?)?;
         unsafe {
-            put(output, found);
-            put(input, complex.data.solid_euler);
+            put(output, of_output);
+            put(input, of_input);
         }
         Ok(())
     })

@@ -177,7 +177,8 @@ impl Ord for PointKey {
     }
 }
 
-const RANKS: usize = 4;
+const RANKS: usize = 3;
+const DIRECTIONS: [(usize, bool); 6] = [(0, false), (0, true), (1, false), (1, true), (2, false), (2, true)];
 const ORDERS: [[u8; 3]; 6] = [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [1, 0, 2], [2, 1, 0]];
 
 /// Looks for anchors.
@@ -191,34 +192,22 @@ struct Finder<'a> {
 
 impl Finder<'_> {
     /// Attempts of a rank, the later the dearer: (0) toward −x from triangles at the lowest vertex; (1) the same in all six
-    /// directions; (2) from all triangles; (3) toward −x from ever closer to the lowest vertex along each of its edges, which
-    /// cannot fail on valid input unless k runs out of bits.
+    /// directions; (2) toward −x from ever closer to the lowest vertex along each of its edges, which cannot fail on valid
+    /// input unless k runs out of bits.
     fn find(&mut self, rank: usize, members: &[TriangleId]) -> Option<Anchor> {
-        let sides: &[(usize, bool)] = if rank == 0 || rank == 3 {
-            &[(0, false)]
-        } else {
-            &[(0, false), (0, true), (1, false), (1, true), (2, false), (2, true)]
-        };
-        for &(axis, positive) in sides {
+        let directions = if rank == 1 { &DIRECTIONS[..] } else { &DIRECTIONS[..1] };
+        let orders = if rank == 2 { &ORDERS[..] } else { &ORDERS[..1] };
+        for &(axis, positive) in directions {
             let extreme = self.extreme(members, axis, positive);
-            for &t in members {
-                if rank != 2 && !self.mesh.corners(t).contains(&extreme) {
+            for &from in members {
+                if !self.mesh.corners(from).contains(&extreme) || !self.faces_solid(from, axis, positive) {
                     continue;
                 }
-                if !self.faces_solid(t, axis, positive) {
-                    continue;
-                }
-                let orders = if rank == 3 { &ORDERS[..] } else { &ORDERS[..1] };
                 for &order in orders {
-                    let mut k = 1u32;
-                    for _ in 0..32 {
-                        let start = RayStart { from: t, order, k, axis, positive };
-                        if let Some(anchor) = self.attempt(start) {
+                    for step in 0..if rank == 2 { 32 } else { 4 } {
+                        let k = if rank == 2 { 1 << step } else { 1 + step };
+                        if let Some(anchor) = self.attempt(RayStart { from, order, k, axis, positive }) {
                             return Some(anchor);
-                        }
-                        k = if rank == 3 { k.saturating_mul(2) } else { k + 1 };
-                        if rank != 3 && k > 4 {
-                            break;
                         }
                     }
                 }

@@ -218,9 +218,12 @@ impl Scene<'_> {
     }
 
     fn candidates(&self, origin: &Origin, start: &RayStart, visit: impl FnMut(TriangleId)) {
-        // The bounds are rounded once more: the error bound is generous enough for that.
-        let lo = std::array::from_fn(|i| origin.x[i] - origin.err[i]);
-        let hi = std::array::from_fn(|i| origin.x[i] + origin.err[i]);
+        // The bounds are rounded once more: the error bound is generous enough for that. The sum of the terms may leave
+        // the range of doubles by their last bit; then nothing is known.
+        let bound =
+            |i: usize, err: f64, unknown: f64| if origin.x[i].is_finite() { origin.x[i] + err } else { unknown };
+        let lo = std::array::from_fn(|i| bound(i, -origin.err[i], f64::NEG_INFINITY));
+        let hi = std::array::from_fn(|i| bound(i, origin.err[i], f64::INFINITY));
         self.bvh.meeting_ray(&lo, &hi, start.axis, start.positive, visit);
     }
 }
