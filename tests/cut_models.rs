@@ -57,7 +57,9 @@ fn through(n: [f64; 3], x: [f64; 3]) -> Plane {
 fn grid(mesh: &TriMesh, count: usize) -> Vec<Plane> {
     let [low, high] = mesh.bbox;
     (0..3)
-        .flat_map(|a| (0..count).map(move |i| axis_plane(a, low[a] + (high[a] - low[a]) * i as f64 / (count - 1) as f64)))
+        .flat_map(|a| {
+            (0..count).map(move |i| axis_plane(a, low[a] + (high[a] - low[a]) * i as f64 / (count - 1) as f64))
+        })
         .collect()
 }
 
@@ -101,12 +103,13 @@ fn on_integers(soup: &common::Soup) -> Option<TriMesh> {
 }
 
 fn verify(name: &str, what: &str, mesh: &Arc<TriMesh>, planes: &[Plane], failed: &mut Vec<String>) {
-    let outcome = cut(mesh, planes, &CutOptions::default(), &mut Run::quiet()).map_err(|e| e.message).and_then(|result| {
-        check(&result.complex)?;
-        check_volumes(&result.complex)?;
-        let (got, wanted) = (euler(&result.complex)?, solid_euler(mesh));
-        if got == wanted { Ok(()) } else { Err(format!("Euler characteristic {got}, expected {wanted}")) }
-    });
+    let outcome =
+        cut(mesh, planes, &CutOptions::default(), &mut Run::quiet()).map_err(|e| e.message).and_then(|result| {
+            check(&result.complex)?;
+            check_volumes(&result.complex)?;
+            let (got, wanted) = (euler(&result.complex)?, solid_euler(mesh));
+            if got == wanted { Ok(()) } else { Err(format!("Euler characteristic {got}, expected {wanted}")) }
+        });
     if let Err(message) = outcome {
         println!("{name} {what}: {message}");
         failed.push(format!("{name} {what}: {message}"));

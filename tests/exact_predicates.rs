@@ -210,7 +210,7 @@ fn directions() {
         let [qa, qb, qc, qe] = d.map(|d| reference::direction(&d));
         let what = || format!("directions {d:?}");
 
-        let expected = sign(&reference::leibniz(&[qa.clone(), qb.clone(), qc.clone()]));
+        let expected = sign(&reference::leibniz(&[qa, qb, qc]));
         same(determinant(a, b, c), expected, what);
         tiers(&Determinant(a, b, c), expected, what);
 
@@ -234,7 +234,7 @@ fn orientations() {
             1 => v[2] = std::array::from_fn(|i| v[0][i] / 2.0 + v[1][i] / 2.0),
             _ => {}
         }
-        let [a, b, c, d] = &v;
+        let [a, b, c, d] = v;
         let [qa, qb, qc, qd] = v.map(|x| q3(&x));
         let what = || format!("orientation {v:?}");
         let (ab, ac) = (reference::sub(&qb, &qa), reference::sub(&qc, &qa));
@@ -337,22 +337,22 @@ fn integers_of_width<const N: usize>(seed: u64) {
         if v.iter().any(|(x, _)| x.sign().is_none()) {
             continue;
         }
-        let [(a, qa), (b, qb), (c, qc), (d, qd), (e, qe), (f, qf), (g, qg)] = &v;
-        check(a, qa);
-        check(&a.plus(b), &Integer::from(qa + qb));
-        check(&a.minus(b), &Integer::from(qa - qb));
-        check(&a.negated(), &Integer::from(-qa));
+        let [(a, qa), (b, qb), (c, qc), (d, qd), (e, qe), (f, qf), (g, qg)] = v;
+        check(&a, &qa);
+        check(&a.plus(&b), &Integer::from(&qa + &qb));
+        check(&a.minus(&b), &Integer::from(&qa - &qb));
+        check(&a.negated(), &Integer::from(-&qa));
         // What is lost on the way is lost at the end, even if it would fit again: look at what surely stays.
-        let (ab, cd) = (Integer::from(qa * qb), Integer::from(qc * qd));
-        check(&a.times(b), &ab);
+        let (ab, cd) = (Integer::from(&qa * &qb), Integer::from(&qc * &qd));
+        check(&a.times(&b), &ab);
         if ab.significant_bits().max(cd.significant_bits()) as usize <= 64 * (N - 1) - 8 {
-            check(&Int::minor(a, c, d, b), &Integer::from(&ab - &cd));
-            let ef = Integer::from(qe * qf);
+            check(&Int::minor(&a, &c, &d, &b), &Integer::from(&ab - &cd));
+            let ef = Integer::from(&qe * &qf);
             if ef.significant_bits() as usize <= 64 * (N - 1) - 8 {
-                let v = [b.clone(), d.clone(), f.clone()];
+                let v = [b, d, f];
                 let dot: Integer = ab + cd + ef;
-                check(&Int::dot(&[a.clone(), c.clone(), e.clone()], &v), &dot);
-                check(&Int::plane_value(&[a.clone(), c.clone(), e.clone(), g.clone()], &v), &(dot + qg));
+                check(&Int::dot(&[a, c, e], &v), &dot);
+                check(&Int::plane_value(&[a, c, e, g], &v), &(dot + qg));
             }
         }
     }
