@@ -1,5 +1,5 @@
 //! Nanoseconds per predicate and tier: `cargo bench --bench exact`. Generic input (filters decide) and degenerate input
-//! (exact zeros); the best of several rounds over the same inputs.
+//! (exact zeros); the best of several rounds over the same inputs. An argument keeps the lines that contain it.
 
 use lapidary::exact::planes::group;
 use lapidary::exact::predicates::*;
@@ -9,6 +9,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 const INPUTS: usize = 512;
+const ROUNDS: usize = 40;
 
 struct Random(u64);
 
@@ -33,8 +34,12 @@ impl Random {
 }
 
 fn measure<T, R>(name: &str, inputs: &[T], f: impl Fn(&T) -> R) {
+    let wanted = std::env::args().skip(1).find(|a| !a.starts_with('-'));
+    if wanted.is_some_and(|w| !name.contains(&w)) {
+        return;
+    }
     let mut best = f64::INFINITY;
-    for _ in 0..40 {
+    for _ in 0..ROUNDS {
         let start = Instant::now();
         for x in inputs {
             black_box(f(black_box(x)));
@@ -129,8 +134,8 @@ fn main() {
         });
         let far = Support::Plane(Plane { n: [0.3, 0.4, 0.5], d: 0.1 });
         measure(&format!("point side, {name}"), &p, |p| support_side(&far, p));
-        measure(&format!("approximation, {name}"), &p, |p| approx(p));
-        measure(&format!("rounding (three coordinates), {name}"), &p, |p| round(p));
+        measure(&format!("approximation, {name}"), &p, approx);
+        measure(&format!("rounding (three coordinates), {name}"), &p, round);
     }
     // All three coordinates are general; x and y are exact ties.
     let middles = inputs(12, |r| {
@@ -141,8 +146,8 @@ fn main() {
         let ((ax, bx), (ay, by)) = (half(r), half(r));
         Point::EdgePlane { a: [ax, ay, -1.0], b: [bx, by, 1.0], p: Plane { n: [0.0, 0.0, 1.0], d: 0.0 } }
     });
-    measure("rounding, two exact ties", &middles, |p| round(p));
-    measure("exact rational point", &middles, |p| rational(p));
+    measure("rounding, two exact ties", &middles, round);
+    measure("exact rational point", &middles, rational);
 
     let mut r = Random(13);
     let planes: Vec<Plane> = (0..10_000).map(|_| Plane { n: r.vector(), d: r.unit() }).collect();

@@ -17,6 +17,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <sys/resource.h>
@@ -39,6 +40,7 @@ planes (any of these, together if you like)
   --random N         directions uniform on the sphere, through points uniform in the bounding box
   --seed S           seed of --random (default 1); the same planes on every machine
 options
+  --flip             reverse all triangles first, for a mesh that faces inward
   --threads N        worker threads (default 1); the result does not depend on it
   --faces STYLE      faces in --vtu: bridged (default; holes are joined to the outer loop by an edge walked twice) or
                      triangles; with `holes` only their number is reported, since VTK has no faces with holes
@@ -62,7 +64,7 @@ struct Options {
   std::uint64_t seed = 1;
   std::int32_t style = LAP_FACES_BRIDGED;
   double explode = 0.25;
-  bool check = false, help = false;
+  bool check = false, flip = false, help = false;
 };
 
 long to_count(const std::string& option, const std::string& text, long least, long most) {
@@ -109,6 +111,7 @@ Options parse(const std::vector<std::string>& arguments) {
     else if (a == "--threads") options.threads = to_count(a, next(a), 1, LAP_MAX_THREADS);
     else if (a == "--repeat") options.repeat = to_count(a, next(a), 1, many);
     else if (a == "--check") options.check = true;
+    else if (a == "--flip") options.flip = true;
     else if (a == "--vtu") options.vtu = next(a);
     else if (a == "--exploded") options.exploded = next(a);
     else if (a == "--explode") options.explode = to_factor(a, next(a));
@@ -204,7 +207,9 @@ Cells cells_of(lap_context* context, const lap_complex* complex) {
 }
 
 int cut_mesh(const Options& options) {
-  const Mesh input = read_mesh(options.mesh);
+  Mesh input = read_mesh(options.mesh);
+  if (options.flip)
+    for (std::size_t i = 0; i < input.triangles.size(); i += 3) std::swap(input.triangles[i + 1], input.triangles[i + 2]);
   const Box box = bounding_box(input);
   std::vector<double> planes = grid_planes(box, options.grid);
   auto append = [&](const std::vector<double>& more) { planes.insert(planes.end(), more.begin(), more.end()); };
@@ -236,6 +241,7 @@ int cut_mesh(const Options& options) {
   must(context, lap_context_counters_enable(context, 1));
   Run best = run(context, input, planes, &progress);
   report.counters = counters_of(context);
+  report.statistics = statistics_of(context, best.cut.get());
   must(context, lap_context_counters_enable(context, 0));
   must(context, lap_context_set_progress(context, nullptr, nullptr));
   const double counted = best.times.total;

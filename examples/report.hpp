@@ -122,6 +122,20 @@ inline Counters counters_of(lap_context* context) {
   return counters;
 }
 
+// How decisions were found: by topology alone, or numerically. Only a cut that was made with counters on has them.
+inline Counters statistics_of(lap_context* context, const lap_cut* cut) {
+  Counters statistics;
+  std::int32_t count = 0;
+  must(context, lap_cut_statistic_count(cut, &count));
+  for (std::int32_t i = 0; i < count; ++i) {
+    const char* name = nullptr;
+    std::int64_t value = 0;
+    must(context, lap_cut_statistic(cut, i, &name, &value));
+    statistics.emplace_back(name, value);
+  }
+  return statistics;
+}
+
 inline void fill_counts(Report& report, lap_context* context, const lap_mesh* mesh, const lap_cut* cut, const lap_complex* complex) {
   must(context, lap_mesh_counts(mesh, &report.input_vertices, &report.input_triangles, nullptr, &report.input_components, nullptr));
   must(context, lap_mesh_volume(mesh, &report.volume));
@@ -131,14 +145,6 @@ inline void fill_counts(Report& report, lap_context* context, const lap_mesh* me
   const std::int32_t* map = nullptr;
   must(context, lap_cut_plane_map(cut, &planes, &map));
   for (std::int64_t p = 0; p < planes; ++p) report.distinct_planes += map[p] == p;
-  std::int32_t count = 0;
-  must(context, lap_cut_statistic_count(cut, &count));
-  for (std::int32_t i = 0; i < count; ++i) {
-    const char* name = nullptr;
-    std::int64_t value = 0;
-    must(context, lap_cut_statistic(cut, i, &name, &value));
-    report.statistics.emplace_back(name, value);
-  }
 }
 
 inline void fill_volumes(Report& report, const double* volumes, std::int64_t count) {
@@ -156,24 +162,42 @@ inline void fill_volumes(Report& report, const double* volumes, std::int64_t cou
   report.volume_max = *std::max_element(report.volumes.begin(), report.volumes.end());
 }
 
-// Predicate counters are named "predicate.tier"; the tiers summed over all predicates, in order of first appearance.
-inline Counters by_tier(const Counters& counters) {
-  Counters tiers;
+// Predicate counters are named "predicate.tier": a table of predicates by tiers, and the tiers' shares of all decisions.
+inline void print_decisions(const Counters& counters) {
+  std::vector<std::string> predicates, tiers;
+  auto place = [](std::vector<std::string>& names, const std::string& name) {
+    const auto at = std::find(names.begin(), names.end(), name);
+    const auto found = static_cast<std::size_t>(at - names.begin());
+    if (at == names.end()) names.push_back(name);
+    return found;
+  };
+  std::vector<std::vector<std::int64_t>> table; // by predicate, then tier
   for (const auto& [name, value] : counters) {
-    const std::string tier = name.substr(name.rfind('.') + 1);
-    auto at = std::find_if(tiers.begin(), tiers.end(), [&](const auto& t) { return t.first == tier; });
-    if (at == tiers.end()) tiers.emplace_back(tier, value);
-    else at->second += value;
+    const std::size_t dot = name.rfind('.');
+    const std::size_t predicate = place(predicates, name.substr(0, dot)), tier = place(tiers, name.substr(dot + 1));
+    table.resize(predicates.size());
+    table[predicate].resize(std::max(table[predicate].size(), tier + 1));
+    table[predicate][tier] = value;
   }
-  return tiers;
-}
-
-inline void print_share(const Counters& counters) {
+  std::vector<std::int64_t> sums(tiers.size());
   std::int64_t all = 0;
-  for (const auto& counter : counters) all += counter.second;
-  for (const auto& [name, value] : counters)
-    std::printf("  %-24s %14lld  %6.2f %%\n", name.c_str(), static_cast<long long>(value),
-                all > 0 ? 100.0 * static_cast<double>(value) / static_cast<double>(all) : 0.0);
+  std::printf("decisions         ");
+  for (const std::string& tier : tiers) std::printf(" %10s", tier.c_str());
+  std::printf("\n");
+  for (std::size_t i = 0; i < predicates.size(); ++i) {
+    table[i].resize(tiers.size());
+    if (std::count(table[i].begin(), table[i].end(), 0) == static_cast<std::ptrdiff_t>(tiers.size())) continue;
+    std::printf("  %-16s", predicates[i].c_str());
+    for (std::size_t k = 0; k < tiers.size(); ++k) {
+      std::printf(" %10lld", static_cast<long long>(table[i][k]));
+      sums[k] += table[i][k];
+      all += table[i][k];
+    }
+    std::printf("\n");
+  }
+  std::printf("  %-16s", "all");
+  for (std::int64_t sum : sums) std::printf(" %8.2f %%", all > 0 ? 100.0 * static_cast<double>(sum) / static_cast<double>(all) : 0.0);
+  std::printf("\n");
 }
 
 inline void print_table(const Report& r) {
@@ -201,14 +225,7 @@ inline void print_table(const Report& r) {
   for (const auto& [name, seconds] : r.times.stages) std::printf("  %-24s %14.3f\n", name.c_str(), 1000 * seconds);
   std::printf("  %-24s %14.3f\n", "outside the stages", 1000 * outside_stages(r.times));
   std::printf("  %-24s %14.3f\n", "total", 1000 * r.times.total);
-  if (!r.statistics.empty()) {
-    std::printf("how orders were found\n");
-    print_share(r.statistics);
-  }
-  if (!r.counters.empty()) {
-    std::printf("how signs were decided\n");
-    print_share(by_tier(r.counters));
-  }
+  if (!r.counters.empty()) print_decisions(r.counters);
   std::printf("peak memory %27.1f MB\n", static_cast<double>(r.peak_bytes) / 1e6);
   std::fflush(stdout);
 }

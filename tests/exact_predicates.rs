@@ -5,11 +5,13 @@ mod exact_reference;
 
 use exact_reference as reference;
 use exact_reference::{KINDS, Q, Random, normal, number, plane, q, q3, sign, support, symbolic, triangle, vector};
+use lapidary::exact::fixed::Int;
 use lapidary::exact::predicates::*;
-use lapidary::exact::ring::Expression;
+use lapidary::exact::ring::{Expression, Ring};
 use lapidary::exact::rows::RowDeterminant;
 use lapidary::exact::tiers::{big_sign, bounded_sign, fixed_sign};
 use lapidary::exact::*;
+use rug::Integer;
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 /// Comparisons made by all tests of this file, and how often each tier knew (bounded, 4, 8, 16, 32 limbs, any size).
@@ -208,7 +210,7 @@ fn directions() {
         let [qa, qb, qc, qe] = d.map(|d| reference::direction(&d));
         let what = || format!("directions {d:?}");
 
-        let expected = sign(&reference::leibniz(&[qa.clone(), qb.clone(), qc.clone()]));
+        let expected = sign(&reference::leibniz(&[qa, qb, qc]));
         same(determinant(a, b, c), expected, what);
         tiers(&Determinant(a, b, c), expected, what);
 
@@ -232,7 +234,7 @@ fn orientations() {
             1 => v[2] = std::array::from_fn(|i| v[0][i] / 2.0 + v[1][i] / 2.0),
             _ => {}
         }
-        let [a, b, c, d] = &v;
+        let [a, b, c, d] = v;
         let [qa, qb, qc, qd] = v.map(|x| q3(&x));
         let what = || format!("orientation {v:?}");
         let (ab, ac) = (reference::sub(&qb, &qa), reference::sub(&qc, &qa));
@@ -303,6 +305,80 @@ fn determinants_of_function_values() {
     determinants_of_size::<2>(12, 1500);
     determinants_of_size::<3>(13, 1500);
     determinants_of_size::<4>(14, 1000);
+}
+
+/// Integers on the stack against rug, with limbs at the ends of their range: equal, or lost and then really too wide.
+fn integers_of_width<const N: usize>(seed: u64) {
+    let mut r = Random(seed);
+    let limbs = |r: &mut Random| -> Vec<i64> {
+        let n = 1 + r.below(N as u64) as usize;
+        let ends = [0, 1, -1, i64::MIN, i64::MAX, i64::MIN + 1];
+        (0..n).map(|_| if r.below(2) == 0 { ends[r.below(6) as usize] } else { r.next() as i64 }).collect()
+    };
+    let build = |l: &[i64]| -> (Int<N>, Integer) {
+        let shift = Int::<N>::scaled(2f64.powi(64), 0);
+        l.iter()
+            .fold((Int::small(0), Integer::new()), |(x, q), &l| (x.times(&shift).plus(&Int::small(l)), (q << 64) + l))
+    };
+    let mut fitted = 0;
+    let mut check = |x: &Int<N>, q: &Integer| match x.to_integer() {
+        Some(found) => {
+            same(&found, q, || "integer".into());
+            assert_eq!(x.sign(), Some(Sign::from_ordering(q.cmp0())));
+            fitted += 1;
+        }
+        // Lost only close to the capacity.
+        None => assert!(q.significant_bits() as usize >= 64 * (N - 1) - 2, "{q}"),
+    };
+    for _ in 0..5000 {
+        let v: [Vec<i64>; 7] = std::array::from_fn(|_| limbs(&mut r));
+        let short = r.below(2) == 0;
+        let v = v.map(|l| build(if short { &l[..1] } else { &l }));
+        if v.iter().any(|(x, _)| x.sign().is_none()) {
+            continue;
+        }
+        let [(a, qa), (b, qb), (c, qc), (d, qd), (e, qe), (f, qf), (g, qg)] = v;
+        check(&a, &qa);
+        check(&a.plus(&b), &Integer::from(&qa + &qb));
+        check(&a.minus(&b), &Integer::from(&qa - &qb));
+        check(&a.negated(), &Integer::from(-&qa));
+        // What is lost on the way is lost at the end, even if it would fit again: look at what surely stays.
+        let (ab, cd) = (Integer::from(&qa * &qb), Integer::from(&qc * &qd));
+        check(&a.times(&b), &ab);
+        if ab.significant_bits().max(cd.significant_bits()) as usize <= 64 * (N - 1) - 8 {
+            check(&Int::minor(&a, &c, &d, &b), &Integer::from(&ab - &cd));
+            let ef = Integer::from(&qe * &qf);
+            if ef.significant_bits() as usize <= 64 * (N - 1) - 8 {
+                let v = [b, d, f];
+                let dot: Integer = ab + cd + ef;
+                check(&Int::dot(&[a, c, e], &v), &dot);
+                check(&Int::plane_value(&[a, c, e, g], &v), &(dot + qg));
+            }
+        }
+    }
+    assert!(fitted > 10_000, "{fitted}");
+}
+
+#[test]
+fn integers_on_the_stack() {
+    integers_of_width::<4>(15);
+    integers_of_width::<8>(16);
+    integers_of_width::<16>(17);
+    let mut r = Random(18);
+    for _ in 0..20_000 {
+        // A double on any exponent up to its own lowest bit.
+        let x = f64::from_bits(r.next());
+        if !x.is_finite() || x == 0.0 {
+            continue;
+        }
+        let e = lift::lsb(x) - r.below(300) as i32;
+        let exact = q(x) * (Q::from(1) << -e);
+        assert!(exact.is_integer());
+        let narrow = Int::<4>::scaled(x, e).to_integer();
+        same(Int::<8>::scaled(x, e).to_integer().as_ref(), Some(exact.numer()), || format!("{x:e} {e}"));
+        assert!(narrow.is_none() || narrow.as_ref() == Some(exact.numer()));
+        assert!(narrow.is_some() || exact.numer().significant_bits() >= 128);
+    }
 }
 
 /// Products of 1e-170 vanish in doubles; the signs do not.

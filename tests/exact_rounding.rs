@@ -48,7 +48,7 @@ fn rationals_round_to_nearest_even() {
 #[test]
 fn symbolic_points_round_to_nearest_even() {
     let mut n = 0u64;
-    for kind in 0..KINDS.len() {
+    for (kind, name) in KINDS.iter().enumerate() {
         let mut r = Random(2000 + kind as u64);
         for _ in 0..3000 {
             let near = vector(&mut r, kind);
@@ -57,7 +57,7 @@ fn symbolic_points_round_to_nearest_even() {
             let rationals = rational(&x);
             let bounds = approx(&x);
             for i in 0..3 {
-                let what = || format!("{} {i} {x:?}", KINDS[kind]);
+                let what = || format!("{name} {i} {x:?}");
                 assert_eq!(rationals[i], exact[i], "{}", what());
                 same_bits(found[i], nearest(&exact[i]), what);
                 same_bits(round_rational(&exact[i]), nearest(&exact[i]), what);

@@ -216,7 +216,8 @@ impl Expression<1> for CrossDotCross<'_> {
     const PREDICATE: Predicate = Predicate::Direction;
     #[inline]
     fn eval<K: Kernel>(&self, k: &K) -> [K::N; 1] {
-        let [a, b, c, d] = self.0.map(|d| direction(k, d));
+        let d = |i: usize| direction(k, self.0[i]);
+        let (a, b, c, d) = (d(0), d(1), d(2), d(3));
         [minor(&dot_product(&a, &c), &dot_product(&a, &d), &dot_product(&b, &c), &dot_product(&b, &d))]
     }
 }
@@ -249,8 +250,9 @@ impl Expression<1> for Orient3d<'_> {
     const PREDICATE: Predicate = Predicate::Orient3d;
     #[inline]
     fn eval<K: Kernel>(&self, k: &K) -> [K::N; 1] {
-        let [a, b, c, d] = self.0.map(|x| k.point(x));
-        [det3(&difference(&b, &a), &difference(&c, &a), &difference(&d, &a))]
+        let [a, b, c, d] = self.0;
+        let a = k.point(a);
+        [det3(&difference(&k.point(b), &a), &difference(&k.point(c), &a), &difference(&k.point(d), &a))]
     }
 }
 

@@ -10,12 +10,28 @@ use super::counters::Predicate;
 use super::rows::Row;
 use super::types::Plane;
 
-/// Addition, subtraction, multiplication; by reference, since the wide types are large.
+/// Addition, subtraction, multiplication; by reference, since the wide types are large. The three
+/// compositions are here so that a type can take them in one step.
 pub trait Ring: Clone {
     fn plus(&self, o: &Self) -> Self;
     fn minus(&self, o: &Self) -> Self;
     fn times(&self, o: &Self) -> Self;
     fn negated(&self) -> Self;
+
+    /// `a d - b c`
+    #[inline]
+    fn minor(a: &Self, b: &Self, c: &Self, d: &Self) -> Self {
+        a.times(d).minus(&b.times(c))
+    }
+    #[inline]
+    fn dot(a: &[Self; 3], b: &[Self; 3]) -> Self {
+        a[0].times(&b[0]).plus(&a[1].times(&b[1])).plus(&a[2].times(&b[2]))
+    }
+    /// n.v + d for a plane's row n, d.
+    #[inline]
+    fn plane_value(p: &[Self; 4], v: &[Self; 3]) -> Self {
+        p[0].times(&v[0]).plus(&p[1].times(&v[1])).plus(&p[2].times(&v[2])).plus(&p[3])
+    }
 }
 
 /// How input doubles become ring elements.
@@ -28,6 +44,12 @@ pub trait Kernel {
     /// A row of function values (or a normal), scaled by a power of two of its own.
     fn row<const M: usize>(&self, r: &Row<'_, M>) -> [Self::N; M];
     fn one(&self) -> Self::N;
+
+    /// Several rows; here so that wide numbers can be built in place.
+    #[inline]
+    fn matrix<const M: usize>(&self, rows: &[Row<'_, M>; M]) -> [[Self::N; M]; M] {
+        std::array::from_fn(|i| self.row(&rows[i]))
+    }
 
     fn point(&self, v: &[f64; 3]) -> [Self::N; 3] {
         [self.coordinate(v[0]), self.coordinate(v[1]), self.coordinate(v[2])]
@@ -43,7 +65,7 @@ pub trait Expression<const M: usize> {
 
 #[inline]
 pub fn dot<N: Ring>(a: &[N; 3], b: &[N; 3]) -> N {
-    a[0].times(&b[0]).plus(&a[1].times(&b[1])).plus(&a[2].times(&b[2]))
+    N::dot(a, b)
 }
 
 #[inline]
@@ -54,7 +76,7 @@ pub fn difference<N: Ring>(a: &[N; 3], b: &[N; 3]) -> [N; 3] {
 /// `a d - b c`
 #[inline]
 pub fn minor<N: Ring>(a: &N, b: &N, c: &N, d: &N) -> N {
-    a.times(d).minus(&b.times(c))
+    N::minor(a, b, c, d)
 }
 
 #[inline]
@@ -64,11 +86,14 @@ pub fn cross<N: Ring>(a: &[N; 3], b: &[N; 3]) -> [N; 3] {
 
 #[inline]
 pub fn det3<N: Ring>(a: &[N; 3], b: &[N; 3], c: &[N; 3]) -> N {
-    dot(a, &cross(b, c))
+    let x = a[0].times(&minor(&b[1], &b[2], &c[1], &c[2]));
+    let y = a[1].times(&minor(&b[2], &b[0], &c[2], &c[0]));
+    let z = a[2].times(&minor(&b[0], &b[1], &c[0], &c[1]));
+    x.plus(&y).plus(&z)
 }
 
 /// n.v + d
 #[inline]
 pub fn plane_value<N: Ring>(p: &[N; 4], v: &[N; 3]) -> N {
-    p[0].times(&v[0]).plus(&p[1].times(&v[1])).plus(&p[2].times(&v[2])).plus(&p[3])
+    N::plane_value(p, v)
 }

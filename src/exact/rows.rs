@@ -24,8 +24,7 @@ impl<const M: usize> Expression<1> for RowDeterminant<'_, M> {
     const PREDICATE: Predicate = Predicate::Barycentric;
     #[inline]
     fn eval<K: Kernel>(&self, k: &K) -> [K::N; 1] {
-        let m: [[K::N; M]; M] = std::array::from_fn(|i| k.row(&self.0[i]));
-        [determinant(&m)]
+        [determinant(&k.matrix(self.0))]
     }
 }
 

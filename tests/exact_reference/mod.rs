@@ -203,10 +203,9 @@ fn solve(rows: [(Q3, Q); 3]) -> Option<Q3> {
         }
         for r in 0..3 {
             if r != c && m[r][c] != 0 {
-                let f = m[r][c].clone();
-                for k in c..4 {
-                    let t = Q::from(&f * &m[c][k]);
-                    m[r][k] -= t;
+                let (f, lead) = (m[r][c].clone(), m[c].clone());
+                for (x, y) in m[r].iter_mut().zip(&lead) {
+                    *x -= Q::from(&f * y);
                 }
             }
         }

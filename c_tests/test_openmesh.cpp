@@ -1,0 +1,185 @@
+/* The shells of the cells against OpenMesh: triangulated, a vertex split into one for each of its umbrellas, every shell must
+   be accepted as a closed orientable manifold, and the Euler characteristics that OpenMesh finds must add up to the one
+   that is reported. Coordinates are handed over as doubles (OpenMesh's readers go through float). */
+#include "check.h"
+#include "fixture.hpp"
+
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+namespace {
+
+struct Traits : OpenMesh::DefaultTraits {
+    using Point = OpenMesh::Vec3d;
+};
+using Mesh = OpenMesh::TriMesh_ArrayKernelT<Traits>;
+
+/* Sets that are joined. */
+struct Sets {
+    std::vector<std::int32_t> parent;
+    explicit Sets(std::size_t n) : parent(n) { std::iota(parent.begin(), parent.end(), 0); }
+    std::int32_t find(std::int32_t i)
+    {
+        while (parent[i] != i) i = parent[i] = parent[parent[i]];
+        return i;
+    }
+    void join(std::int32_t a, std::int32_t b) { parent[find(a)] = find(b); }
+};
+
+/* A triangle of a shell, oriented outward, and the half-face that it is a part of. */
+struct Wall {
+    std::array<std::int32_t, 3> vertices;
+    std::int32_t half_face;
+};
+
+/* One use of an edge: 3 * triangle + side, and the edge as low and high vertex. */
+struct Use {
+    std::int32_t low, high, half_face, at;
+    bool forward;
+    bool operator<(const Use &o) const
+    {
+        return std::tie(low, high, half_face, at) < std::tie(o.low, o.high, o.half_face, o.at);
+    }
+};
+
+/* Makes OpenMesh's mesh of a shell. `across` tells which half-face follows a half-face at an edge that it shares with more
+   than one. Returns the Euler characteristic. */
+std::int64_t shell_euler(const std::vector<Wall> &walls, const lapidary::groups<double, 3> &xyz,
+                         const std::map<std::array<std::int32_t, 3>, std::int32_t> &across)
+{
+    std::vector<Use> uses;
+    for (std::size_t t = 0; t < walls.size(); ++t) {
+        for (int k = 0; k < 3; ++k) {
+            const std::int32_t a = walls[t].vertices[k], b = walls[t].vertices[(k + 1) % 3];
+            uses.push_back({std::min(a, b), std::max(a, b), walls[t].half_face, static_cast<std::int32_t>(3 * t + k), a < b});
+        }
+    }
+    std::sort(uses.begin(), uses.end());
+    Sets corners(3 * walls.size());
+    const auto join = [&](const Use &u, const Use &v) {
+        CHECK(u.forward != v.forward);
+        const auto end = [](const Use &w, int e) { return w.at / 3 * 3 + (w.at % 3 + e) % 3; };
+        corners.join(end(u, 0), end(v, 1));
+        corners.join(end(u, 1), end(v, 0));
+    };
+    for (std::size_t i = 0, j; i < uses.size(); i = j) {
+        for (j = i; j < uses.size() && uses[j].low == uses[i].low && uses[j].high == uses[i].high; ++j) {}
+        CHECK((j - i) % 2 == 0);
+        if (j - i == 2) {
+            join(uses[i], uses[i + 1]);
+            continue;
+        }
+        /* Several wedges of the cell at one edge. */
+        for (std::size_t a = i; a < j; ++a) {
+            const auto mate = across.find({uses[a].half_face, uses[a].low, uses[a].high});
+            CHECK(mate != across.end());
+            for (std::size_t b = a + 1; mate != across.end() && b < j; ++b) {
+                if (uses[b].half_face == mate->second) join(uses[a], uses[b]);
+            }
+        }
+    }
+    Mesh mesh;
+    std::map<std::int32_t, Mesh::VertexHandle> made;
+    for (const Wall &wall : walls) {
+        std::array<Mesh::VertexHandle, 3> handles;
+        for (int k = 0; k < 3; ++k) {
+            const std::int32_t umbrella = corners.find(static_cast<std::int32_t>(3 * (&wall - walls.data()) + k));
+            const auto place = made.emplace(umbrella, Mesh::VertexHandle());
+            if (place.second) {
+                const double *p = xyz[wall.vertices[k]];
+                place.first->second = mesh.add_vertex(OpenMesh::Vec3d(p[0], p[1], p[2]));
+            }
+            handles[k] = place.first->second;
+        }
+        /* Invalid where the edge is taken already: not a manifold, or not oriented. */
+        CHECK(mesh.add_face(handles[0], handles[1], handles[2]).is_valid());
+    }
+    CHECK(mesh.n_faces() == walls.size());
+    for (const auto e : mesh.edges()) CHECK(!mesh.is_boundary(e));
+    for (const auto v : mesh.vertices()) CHECK(mesh.is_manifold(v) && !mesh.is_isolated(v));
+    return static_cast<std::int64_t>(mesh.n_vertices()) - static_cast<std::int64_t>(mesh.n_edges()) +
+           static_cast<std::int64_t>(mesh.n_faces());
+}
+
+void run(const fixture::cutting &c, const fixture::solid &s)
+{
+    const int before = check_failures;
+    lapidary::context context;
+    const lapidary::mesh mesh(context, s.xyz, s.indices);
+    const lapidary::cut cut(context, mesh, c.planes);
+    const lapidary::complex complex = cut.complex();
+    const auto n = complex.counts();
+    const auto xyz = complex.vertices();
+    const auto faces = complex.faces();
+    const auto edges = complex.edges();
+    const auto cells = complex.cells();
+    const auto adjacency = complex.adjacency();
+    const auto triangles = complex.polygons(LAP_FACES_TRIANGLES);
+
+    /* Polygons are in order of faces. */
+    std::vector<std::int64_t> first(n.faces + 1, 0);
+    for (const std::int32_t f : triangles.faces) ++first[f + 1];
+    std::partial_sum(first.begin(), first.end(), first.begin());
+
+    std::map<std::array<std::int32_t, 3>, std::int32_t> across;
+    for (std::int64_t h = 0; h < 2 * n.corners; ++h) {
+        const std::int32_t mate = adjacency.across(h);
+        if (mate < 0) continue;
+        const std::int32_t *e = edges[faces.corner_edges[h / 2]];
+        across[{static_cast<std::int32_t>(2 * adjacency.faces[h / 2] + h % 2), std::min(e[0], e[1]), std::max(e[0], e[1])}] = mate;
+    }
+
+    std::int64_t doubled = 0;
+    for (std::int64_t shell = 0; shell < n.shells; ++shell) {
+        std::vector<Wall> walls;
+        for (auto k = cells.shell_faces[shell]; k < cells.shell_faces[shell + 1]; ++k) {
+            const std::int32_t half_face = cells.half_faces[k], f = half_face / 2;
+            for (std::int64_t t = first[f]; t < first[f + 1]; ++t) {
+                const auto row = triangles.vertices[t];
+                CHECK(row.size() == 3);
+                /* The front of a face looks into the cell: outward is the other way round. */
+                if (half_face % 2 == 0) walls.push_back({{row[0], row[1], row[2]}, half_face});
+                else walls.push_back({{row[0], row[2], row[1]}, half_face});
+            }
+        }
+        doubled += shell_euler(walls, xyz, across);
+    }
+    CHECK(doubled % 2 == 0);
+    const std::int64_t euler = n.vertices - n.edges + n.faces - (n.loops - n.faces) - doubled / 2;
+    CHECK(euler == complex.euler().output);
+    std::cout << c.name << ": " << n.shells << " shells, Euler characteristic " << euler
+              << (check_failures == before ? "" : ": FAILED") << '\n';
+}
+
+} // namespace
+
+int main()
+{
+    const fixture::all data = fixture::read(LAPIDARY_TEST_DATA "/cut_small.txt");
+    for (const auto &[name, s] : data.meshes) {
+        /* The mesh itself: all its shells together. */
+        std::vector<Wall> walls;
+        for (std::size_t t = 0; t < s.indices.size(); t += 3) {
+            walls.push_back({{s.indices[t], s.indices[t + 1], s.indices[t + 2]}, -1});
+        }
+        lapidary::context context;
+        const lapidary::mesh mesh(context, s.xyz, s.indices);
+        const auto counts = mesh.counts();
+        const std::int64_t euler = shell_euler(walls, {s.xyz.data(), static_cast<std::int64_t>(s.xyz.size() / 3)}, {});
+        CHECK(euler == counts.vertices - counts.edges + counts.triangles);
+        /* Every vertex here has one umbrella, so the solid has half the characteristic of its surface. */
+        CHECK(euler == 2 * mesh.euler());
+    }
+    for (const fixture::cutting &c : data.cuttings) {
+        try {
+            run(c, data.meshes.at(c.mesh));
+        } catch (const std::exception &e) {
+            std::cerr << c.name << ": " << e.what() << '\n';
+            check_that(0, "no exception", __FILE__, __LINE__);
+        }
+    }
+    return check_result();
+}
