@@ -3,7 +3,9 @@
 //! χ(shell) is counted over half-face orbits, so that the shell is a closed manifold whatever it touches: its vertices
 //! are the orbits of corners under "next half-face around this vertex in this cell" (a pinched vertex counts once
 //! per umbrella), its edges are the wedges, its faces are discs less their holes. An isolated vertex is a hole loop of
-//! one corner: its half-faces lose 1 for the hole and gain 1 for the orbit. Cells themselves are open balls, less one
+//! one corner without half-edges, hence no orbit: each of the two half-faces loses 1 for the hole, half of that comes back
+//! on either side, and the face's own loss is made up: that the surface touches a plane from one side changes nothing, as it must,
+//! since the solid does not change. (Counting the vertex as an orbit would make each such contact cost 1.) Cells themselves are open balls, less one
 //! handle or void for what the half-sum says: a ball contributes −1, a solid torus 0, a ball with a void −2.
 //! Cost: linear, almost (union-find).
 
@@ -26,7 +28,7 @@ pub fn euler_with(c: &Complex, a: &Adjacency) -> i64 {
         total += 2 - (w[1] - w[0]) as i64;
     }
     let doubled: i64 = shell_euler(c, a).iter().sum();
-    // Each χ is even where the shell is closed and orientable, which half-face orbits always are.
+    // Closed and orientable: even, but for isolated vertices, which come in pairs (one for either side of their face).
     total - doubled / 2
 }
 
@@ -61,7 +63,8 @@ pub fn shell_euler(c: &Complex, a: &Adjacency) -> Vec<i64> {
     }
     for h in (0..a.mates.len() as u32).map(HalfCorner) {
         let shell = shell_of[a.half_face(h).at()];
-        if shell != u32::MAX && orbits.find(h.at()) == h.at() {
+        let has_edge = c.corner_edges[h.corner()].is_some();
+        if shell != u32::MAX && has_edge && orbits.find(h.at()) == h.at() {
             chi[shell as usize] += 1;
         }
     }

@@ -90,5 +90,10 @@ pub fn form_cells(c: &mut Complex, shells: &Shells, host: &[Option<HalfFace>]) -
             [2 * f, 2 * f + 1].map(|h| if shells.of[h].is_none() { CellId::NONE } else { cell_of[shells.of[h].at()] })
         })
         .collect();
-    Ok(())
+    match c.face_cells.iter().position(|[a, b]| a == b) {
+        None => Ok(()),
+        Some(f) => {
+            Err(Error::inconsistent(format!("face {f} has the same cell on both sides: the surface intersects itself")))
+        }
+    }
 }
