@@ -90,10 +90,11 @@ pub fn shell_euler(c: &Complex, a: &Adjacency) -> Vec<i64> {
     inner.sort_unstable();
     if !inner.is_empty() {
         for h in (0..a.mates.len() as u32).map(HalfCorner).filter(|h| on_surface[h.at()]) {
-            if shell_of[a.half_face(h).at()] != u32::MAX && orbits.find(h.at()) == h.at() {
-                if let Ok(i) = inner.binary_search_by_key(&place(h), |x| x.0) {
-                    chi[inner[i].1 as usize] -= 2;
-                }
+            if shell_of[a.half_face(h).at()] != u32::MAX
+                && orbits.find(h.at()) == h.at()
+                && let Ok(i) = inner.binary_search_by_key(&place(h), |x| x.0)
+            {
+                chi[inner[i].1 as usize] -= 2;
             }
         }
     }

@@ -4,13 +4,15 @@
 
 use lapidary::base::{CellId, ComponentId, Csr, EdgeId, FaceId, PlaneId, Run, TriangleId, VertexId};
 use lapidary::complex::{Complex, HalfFace, Origin, SupportId, adjacency, solid_euler};
-use lapidary::exact::{self, Plane, Point};
+use lapidary::exact::{self, Plane};
 use lapidary::mesh::{MeshInput, MeshOptions, TriMesh, build};
 use rug::Rational;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 pub type P = [Rational; 3];
+/// Vertices and triangles.
+pub type Arrays = (Vec<[f64; 3]>, Vec<[i32; 3]>);
 
 pub fn point(x: [f64; 3]) -> P {
     x.map(|x| Rational::from_f64(x).unwrap())
@@ -138,7 +140,7 @@ impl Builder {
             if triangles.iter().any(|t| t.iter().all(|x| value(p, x).is_zero())) {
                 continue;
             }
-            let mut pieces = vec![(square(p), Vec::new())];
+            let mut pieces = vec![(square(p, &self.mesh), Vec::new())];
             for t in &triangles {
                 let n = outward(t);
                 let inside = |x: &P| dot(&n, &minus(x, &t[0]));
@@ -263,18 +265,19 @@ fn with(signs: &[i8], s: i8) -> Vec<i8> {
     all
 }
 
-/// A square in a plane, larger than any solid here, counter-clockwise about the normal.
-fn square(p: &Plane) -> Vec<P> {
+/// A quadrilateral in a plane that covers a mesh, counter-clockwise about the normal.
+fn square(p: &Plane, mesh: &TriMesh) -> Vec<P> {
     let n = point(p.n);
     let axis = (0..3).find(|&i| !n[i].is_zero()).unwrap();
     let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
-    let size = 1 << 20;
+    let size = mesh.vertices.iter().flatten().fold(0.0, |s: f64, x| s.max(x.abs()));
+    let size = Rational::from_f64(2.0 * size).unwrap();
     let mut corners: Vec<P> = [[-1, -1], [1, -1], [1, 1], [-1, 1]]
         .iter()
         .map(|s| {
             let mut x: P = Default::default();
-            x[u] = Rational::from(s[0] * size);
-            x[v] = Rational::from(s[1] * size);
+            x[u] = size.clone() * s[0];
+            x[v] = size.clone() * s[1];
             let rest = value(p, &x);
             x[axis] = -rest / &n[axis];
             x
@@ -426,7 +429,7 @@ pub fn face_by_triangles(c: &Complex, f: FaceId) -> (P, P) {
 }
 
 /// A box's vertices and triangles; `inward` for the wall of a void.
-pub fn cuboid(low: [f64; 3], high: [f64; 3], base: i32, inward: bool) -> (Vec<[f64; 3]>, Vec<[i32; 3]>) {
+pub fn cuboid(low: [f64; 3], high: [f64; 3], base: i32, inward: bool) -> Arrays {
     let vertices = (0..8).map(|i| std::array::from_fn(|a| if i >> a & 1 == 1 { high[a] } else { low[a] })).collect();
     let quads = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
     let mut triangles = Vec::new();
@@ -439,7 +442,7 @@ pub fn cuboid(low: [f64; 3], high: [f64; 3], base: i32, inward: bool) -> (Vec<[f
     (vertices, triangles)
 }
 
-fn join(parts: Vec<(Vec<[f64; 3]>, Vec<[i32; 3]>)>) -> Arc<TriMesh> {
+fn join(parts: Vec<Arrays>) -> Arc<TriMesh> {
     let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
     for (v, t) in parts {
         vertices.extend(v);
@@ -665,7 +668,6 @@ pub fn flat_face(points: &[[f64; 3]], support: Plane, loops: &[Vec<u32>]) -> Com
     c.face_plane = vec![PlaneId(0)];
     c.face_tag = vec![0];
     c.face_cells = vec![[CellId::NONE; 2]];
-    let _: fn([f64; 3]) -> Point = Point::Vertex;
     c
 }
 
