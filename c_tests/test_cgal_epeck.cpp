@@ -48,13 +48,11 @@ Mesh mesh_of(const fixture::solid &s)
 }
 
 /* The volumes of the components of a closed mesh, voids taken off. */
-std::vector<Rational> components(const Mesh &mesh)
+std::vector<Rational> components(Mesh mesh)
 {
     std::map<std::size_t, Kernel::FT> six;
-    std::vector<std::size_t> component(num_faces(mesh), 0);
-    const auto map = CGAL::make_property_map(component);
-    PMP::volume_connected_components(mesh, boost::make_compose_property_map(get(boost::face_index, mesh), map),
-                                     CGAL::parameters::do_orientation_tests(false));
+    auto component = mesh.add_property_map<Mesh::Face_index, std::size_t>("f:component", 0).first;
+    PMP::volume_connected_components(mesh, component, CGAL::parameters::do_orientation_tests(false));
     for (const auto f : faces(mesh)) {
         const auto h = halfedge(f, mesh);
         const Point &a = mesh.point(source(h, mesh)), &b = mesh.point(target(h, mesh)), &c = mesh.point(target(next(h, mesh), mesh));
