@@ -26,6 +26,8 @@ fn main() {
         }
         _ => {}
     }
+    // For tests that call the C compiler.
+    println!("cargo:rustc-env=LAPIDARY_TARGET={}", env("TARGET"));
     if let Err(reason) = write_header(root) {
         println!("cargo:warning=include/lapidary.h was not brought up to date: {reason}");
     }

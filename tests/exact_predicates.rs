@@ -210,7 +210,7 @@ fn directions() {
         let [qa, qb, qc, qe] = d.map(|d| reference::direction(&d));
         let what = || format!("directions {d:?}");
 
-        let expected = sign(&reference::leibniz(&[qa, qb, qc]));
+        let expected = sign(&reference::leibniz(&[qa.clone(), qb.clone(), qc.clone()]));
         same(determinant(a, b, c), expected, what);
         tiers(&Determinant(a, b, c), expected, what);
 
@@ -234,7 +234,7 @@ fn orientations() {
             1 => v[2] = std::array::from_fn(|i| v[0][i] / 2.0 + v[1][i] / 2.0),
             _ => {}
         }
-        let [a, b, c, d] = v;
+        let [a, b, c, d] = &v;
         let [qa, qb, qc, qd] = v.map(|x| q3(&x));
         let what = || format!("orientation {v:?}");
         let (ab, ac) = (reference::sub(&qb, &qa), reference::sub(&qc, &qa));

@@ -17,7 +17,8 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::cell::UnsafeCell;
 use std::ffi::{CString, c_char, c_void};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, OnceLock, mpsc};
+use std::sync::{OnceLock, mpsc};
+use std::thread::JoinHandle;
 
 /// Largest number of threads of a context.
 pub const LAP_MAX_THREADS: i32 = 1024;
@@ -45,7 +46,7 @@ pub struct lap_context {
 
 pub struct State {
     threads: usize,
-    pool: Option<Arc<ThreadPool>>,
+    pool: Option<Pool>,
     progress: (lap_progress, *mut c_void),
     log: (lap_log, *mut c_void),
     status: i32,
@@ -97,33 +98,37 @@ impl State {
         self.threads
     }
 
-    /// The pool, made when first needed.
-    fn pool(&mut self) -> Result<Arc<ThreadPool>, Error> {
-        let pool = match self.pool.take() {
-            Some(pool) => pool,
-            None => Arc::new(make_pool(self.threads)?),
-        };
-        self.pool = Some(pool.clone());
-        Ok(pool)
-    }
-
     /// Runs engine work in the pool, its callbacks on the calling thread.
     pub fn run<T: Send>(
         &mut self,
         host: &mut Host,
         body: impl FnOnce(&mut Run) -> Result<T, Error> + Send,
     ) -> Result<T, Error> {
-        let pool = self.pool()?;
+        let pool = match self.pool.take() {
+            Some(pool) => pool,
+            None => Pool::new(self.threads)?,
+        };
+        let result = self.run_counted(&pool, host, body);
+        self.pool = Some(pool);
+        result
+    }
+
+    fn run_counted<T: Send>(
+        &mut self,
+        pool: &Pool,
+        host: &mut Host,
+        body: impl FnOnce(&mut Run) -> Result<T, Error> + Send,
+    ) -> Result<T, Error> {
         self.last_counts = Counts::ZERO;
         if !self.counting {
-            return self.run_in(&pool, host, body);
+            return self.run_in(pool, host, body);
         }
         // Counters are thread-local.
         pool.broadcast(|_| {
             counters::take();
             counters::enable(true);
         });
-        let result = self.run_in(&pool, host, body);
+        let result = self.run_in(pool, host, body);
         let counted = pool.broadcast(|_| {
             counters::enable(false);
             counters::take()
@@ -135,7 +140,7 @@ impl State {
 
     fn run_in<T: Send>(
         &self,
-        pool: &ThreadPool,
+        pool: &Pool,
         host: &mut Host,
         body: impl FnOnce(&mut Run) -> Result<T, Error> + Send,
     ) -> Result<T, Error> {
@@ -182,14 +187,48 @@ impl State {
     }
 }
 
-/// A pool whose threads have the clean floating-point environment and panic silently.
-pub fn make_pool(threads: usize) -> Result<ThreadPool, Error> {
-    ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .thread_name(|i| format!("lapidary-{i}"))
-        .start_handler(|_| adopt_worker())
-        .build()
-        .map_err(|e| Error::new(Status::OutOfMemory, format!("no threads to be had: {e}")))
+/// A pool whose threads have the clean floating-point environment and panic silently. They are gone when it is dropped:
+/// rayon alone lets them run out by themselves, which a host that unloads the library would not survive.
+pub struct Pool {
+    pool: Option<ThreadPool>,
+    threads: Vec<JoinHandle<()>>,
+}
+
+impl Pool {
+    pub fn new(threads: usize) -> Result<Self, Error> {
+        let mut pool = Self { pool: None, threads: Vec::with_capacity(threads) };
+        let spawned = &mut pool.threads;
+        let built = ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .thread_name(|i| format!("lapidary-{i}"))
+            .start_handler(|_| adopt_worker())
+            .spawn_handler(|worker| {
+                let name = worker.name().unwrap_or_default().to_string();
+                spawned.push(std::thread::Builder::new().name(name).spawn(|| worker.run())?);
+                Ok(())
+            })
+            .build();
+        // After a failure, dropping the half-made pool waits for those threads that did start.
+        pool.pool = Some(built.map_err(|e| Error::new(Status::OutOfMemory, format!("no threads to be had: {e}")))?);
+        Ok(pool)
+    }
+}
+
+impl std::ops::Deref for Pool {
+    type Target = ThreadPool;
+    fn deref(&self) -> &ThreadPool {
+        self.pool.as_ref().expect("a pool has its threads until it is dropped")
+    }
+}
+
+impl Drop for Pool {
+    fn drop(&mut self) {
+        self.pool = None;
+        for thread in self.threads.drain(..) {
+            // A worker that panicked has nothing more to say.
+            let _ = thread.join();
+        }
+    }
 }
 
 /// Names of the counters, "predicate.tier", in the order in which they are numbered.

@@ -5,7 +5,7 @@
 //! costs some tens of microseconds once per demand.
 
 use super::complex::lap_complex;
-use super::context::{State, c_string, lap_context, make_pool, with_context};
+use super::context::{Pool, State, c_string, lap_context, with_context};
 use super::guard::guard;
 use super::view::{address, handle, index, put};
 use crate::base::{CellId, Error, Status, VertexId};
@@ -43,7 +43,7 @@ fn demand<'a, T: Send + Sync>(
         return Ok(known);
     }
     // Made outside of the slot's initialisation, which cannot fail but by a panic; that leaves the slot empty.
-    let pool = make_pool(complex.threads).map_err(|error| error.status)?;
+    let pool = Pool::new(complex.threads).map_err(|error| error.status)?;
     Ok(slot.get_or_init(|| pool.install(|| compute(&complex.data))))
 }
 

@@ -27,6 +27,24 @@ struct Strip {
     last: u32,
 }
 
+/// What a corner does to the strips, in the order in which the corners at one vertex must do it: strips end before
+/// those around them merge, and a strip is split before new ones start in between.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Kind {
+    /// Both sides to the left, convex: a strip ends.
+    End,
+    /// Both sides to the left, reflex (or the right tip of a slit): two strips become one.
+    Merge,
+    /// A strip goes on with another lower side.
+    Lower,
+    /// A strip goes on with another upper side.
+    Upper,
+    /// Both sides to the right, reflex (or the left tip of a slit): a strip is split. An isolated vertex only marks it.
+    Split,
+    /// Both sides to the right, convex: a new strip.
+    Start,
+}
+
 /// A bridge's end at `corner`, leading to `to`; `own` where `corner` is the hole's.
 #[derive(Clone, Copy, Debug)]
 struct End {
@@ -41,6 +59,7 @@ pub struct BridgeScratch {
     next: Vec<u32>,
     prev: Vec<u32>,
     first_of_loop: Vec<u32>,
+    kinds: Vec<Kind>,
     events: Vec<u32>,
     strips: Vec<Strip>,
     ends: Vec<End>,
@@ -126,15 +145,29 @@ fn link(c: &Complex, f: FaceId, s: &mut BridgeScratch) {
 /// Fills `ends` with both ends of every bridge.
 fn find_bridges(w: &Sweep, s: &mut BridgeScratch) -> Result<(), String> {
     let n = s.next.len() as u32;
-    // Right of the corner (later in the sweep) lie: the next corner, the previous corner.
-    let later = |k: u32, other: u32| compare(w.c, w.pr, w.vertex(k), w.vertex(other)) == Ordering::Less;
     let (next, prev) = (&s.next, &s.prev);
-    let phase = |k: u32| next[k as usize] == k || later(k, next[k as usize]) && later(k, prev[k as usize]);
+    let later = |k: u32, other: u32| compare(w.c, w.pr, w.vertex(k), w.vertex(other)) == Ordering::Less;
+    s.kinds.clear();
+    s.kinds.extend((0..n).map(|k| {
+        let (after, before) = (next[k as usize], prev[k as usize]);
+        let convex = || turn(w.c, w.pr, w.vertex(before), w.vertex(k), w.vertex(after)) == Sign::Positive;
+        match (after == k, later(k, after), later(k, before)) {
+            (true, ..) => Kind::Split,
+            (_, false, false) if convex() => Kind::End,
+            (_, false, false) => Kind::Merge,
+            (_, true, false) => Kind::Lower,
+            (_, false, true) => Kind::Upper,
+            (_, true, true) if convex() => Kind::Start,
+            (_, true, true) => Kind::Split,
+        }
+    }));
+    let kinds = &s.kinds;
     s.events.clear();
     s.events.extend(0..n);
-    // At one vertex, what ends there or passes through comes before what begins there.
     s.events.sort_by(|&a, &b| {
-        compare(w.c, w.pr, w.vertex(a), w.vertex(b)).then_with(|| phase(a).cmp(&phase(b))).then(a.cmp(&b))
+        compare(w.c, w.pr, w.vertex(a), w.vertex(b))
+            .then_with(|| kinds[a as usize].cmp(&kinds[b as usize]))
+            .then(a.cmp(&b))
     });
     s.strips.clear();
     s.ends.clear();
@@ -150,11 +183,10 @@ fn find_bridges(w: &Sweep, s: &mut BridgeScratch) -> Result<(), String> {
             let (a, b) = (t.lower, next[t.lower as usize]);
             w.vertex(a) != v && w.vertex(b) != v && w.above(a, b, v) == Sign::Positive
         });
-        let (right_out, right_in) = (later(k, after), later(k, before));
+        let kind = kinds[k as usize];
         let isolated = after == k;
-        let convex = || turn(w.c, w.pr, w.vertex(before), v, w.vertex(after)) == Sign::Positive;
         let first = s.first_of_loop[k as usize] as usize;
-        if isolated || right_out && right_in && !convex() {
+        if kind == Kind::Split {
             // Strictly inside a strip: nothing ends or starts at v but this corner's own sides and other starts.
             let Some(i) = below.checked_sub(1) else { return Err("a hole outside".into()) };
             let strip = strips[i];
@@ -169,7 +201,7 @@ fn find_bridges(w: &Sweep, s: &mut BridgeScratch) -> Result<(), String> {
                 strips[i] = Strip { lower: strip.lower, upper: before, last: k };
                 strips.insert(i + 1, Strip { lower: k, upper: strip.upper, last: k });
             }
-        } else if right_out && right_in {
+        } else if kind == Kind::Start {
             // Of the lower sides that start at v as well, those below the new one.
             let at = strips.partition_point(|t| {
                 let (a, b) = (t.lower, next[t.lower as usize]);
@@ -183,7 +215,7 @@ fn find_bridges(w: &Sweep, s: &mut BridgeScratch) -> Result<(), String> {
         } else {
             // A strip at v: the last one strictly below, or one whose lower side touches v.
             let mut i = below.saturating_sub(1);
-            let wanted = |t: &Strip| if right_out { t.lower == before } else { t.upper == k };
+            let wanted = |t: &Strip| if kind == Kind::Lower { t.lower == before } else { t.upper == k };
             while i < strips.len() && !wanted(&strips[i]) {
                 let (a, b) = (strips[i].lower, next[strips[i].lower as usize]);
                 if i >= below && w.vertex(a) != v && w.vertex(b) != v {
@@ -194,11 +226,14 @@ fn find_bridges(w: &Sweep, s: &mut BridgeScratch) -> Result<(), String> {
             if i == strips.len() {
                 return Err("its loops cross".into());
             }
-            if right_out {
+            if kind == Kind::Lower {
                 strips[i] = Strip { lower: k, upper: strips[i].upper, last: k };
-            } else if right_in {
+            } else if kind == Kind::Upper {
                 strips[i] = Strip { lower: strips[i].lower, upper: before, last: k };
-            } else if strips[i].lower == before {
+            } else if kind == Kind::End {
+                if strips[i].lower != before {
+                    return Err("its loops cross".into());
+                }
                 strips.remove(i);
             } else {
                 if strips.get(i + 1).is_none_or(|t| t.lower != before) {

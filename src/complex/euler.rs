@@ -1,16 +1,23 @@
 //! Euler characteristic (DESIGN §7): V − E + Σ_faces (1 − hole loops) − Σ_cells ½ Σ_shells χ(shell).
 //!
-//! χ(shell) is counted over half-face orbits, so that the shell is a closed manifold whatever it touches: its vertices
-//! are the orbits of corners under "next half-face around this vertex in this cell" (a pinched vertex counts once
-//! per umbrella), its edges are the wedges, its faces are discs less their holes. An isolated vertex is a hole loop of
-//! one corner without half-edges, hence no orbit: each of the two half-faces loses 1 for the hole, half of that comes back
-//! on either side, and the face's own loss is made up: that the surface touches a plane from one side changes nothing, as it must,
-//! since the solid does not change. (Counting the vertex as an orbit would make each such contact cost 1.) Cells themselves are open balls, less one
-//! handle or void for what the half-sum says: a ball contributes −1, a solid torus 0, a ball with a void −2.
+//! The result is the Euler characteristic of the solid itself, whatever planes cut it, because each cell counts as the
+//! open set that it is: −½ χ of the closed surface that bounds it once contacts are pulled apart.
+//!
+//! χ(shell) is counted over half-face orbits: its vertices are the orbits of corners under "next half-face around this
+//! vertex in this cell" (a pinched vertex counts once per umbrella), its edges are the wedges, its faces are discs
+//! less their holes. An isolated vertex is a hole loop of one corner: its half-faces lose 1 for the hole, and the corner
+//! is an orbit of its own. A ball contributes −1, a solid torus 0, a ball with a void −2.
+//!
+//! Degenerate case: the tip of a dent or of a void on a plane (an isolated vertex), or on a line or point of planes. The
+//! directions from there into the cell above form a convex cone of planes less the cones of u umbrellas of the surface: a region with u + 1
+//! rims, χ = 1 − u. Pulled apart, the surface has a tube there instead of u + 1 discs. So an orbit that consists of
+//! plane faces alone counts 1 − 2u, where u other orbits of its cell meet it at its vertex: that is 1 nearly always.
+//! (Where the *input* surface is pinched at a vertex in the same way, an umbrella inside another, both expressions
+//! count umbrellas; they may then differ if a plane goes through that vertex.)
 //! Cost: linear, almost (union-find).
 
 use super::adjacency::{Adjacency, HalfCorner, adjacency};
-use super::data::Complex;
+use super::data::{Complex, Origin, SupportId};
 use crate::base::union_find::UnionFind;
 use crate::base::{CellId, EdgeId};
 use crate::mesh::shells::{WedgeScratch, wedge_mates};
@@ -28,7 +35,7 @@ pub fn euler_with(c: &Complex, a: &Adjacency) -> i64 {
         total += 2 - (w[1] - w[0]) as i64;
     }
     let doubled: i64 = shell_euler(c, a).iter().sum();
-    // Closed and orientable: even, but for isolated vertices, which come in pairs (one for either side of their face).
+    // Each χ is even where the shell is closed and orientable, which half-face orbits always are.
     total - doubled / 2
 }
 
@@ -61,11 +68,34 @@ pub fn shell_euler(c: &Complex, a: &Adjacency) -> Vec<i64> {
             orbits.union(next(h).at(), mate.at());
         }
     }
+    let mut on_surface = vec![false; a.mates.len()];
+    for h in (0..a.mates.len() as u32).map(HalfCorner) {
+        if matches!(c.face_support[a.corner_face[h.corner()].at()], SupportId::Triangle(_)) {
+            on_surface[orbits.find(h.at())] = true;
+        }
+    }
+    // (vertex, cell) of orbits of plane faces alone where the surface can have a tip, rising.
+    let place =
+        |h: HalfCorner| (c.corner_vertices[h.corner()], c.face_cells[a.half_face(h).face().at()][h.front() as usize]);
+    let mut inner = Vec::new();
     for h in (0..a.mates.len() as u32).map(HalfCorner) {
         let shell = shell_of[a.half_face(h).at()];
-        let has_edge = c.corner_edges[h.corner()].is_some();
-        if shell != u32::MAX && has_edge && orbits.find(h.at()) == h.at() {
+        if shell != u32::MAX && orbits.find(h.at()) == h.at() {
             chi[shell as usize] += 1;
+            if !on_surface[h.at()] && matches!(c.origins[c.corner_vertices[h.corner()].at()], Origin::Mesh(_)) {
+                inner.push((place(h), shell));
+            }
+        }
+    }
+    inner.sort_unstable();
+    if !inner.is_empty() {
+        for h in (0..a.mates.len() as u32).map(HalfCorner).filter(|h| on_surface[h.at()]) {
+            if shell_of[a.half_face(h).at()] != u32::MAX
+                && orbits.find(h.at()) == h.at()
+                && let Ok(i) = inner.binary_search_by_key(&place(h), |x| x.0)
+            {
+                chi[inner[i].1 as usize] -= 2;
+            }
         }
     }
     for s in 0..chi.len() {
