@@ -188,6 +188,43 @@ fn turns_of_symbolic_points() {
     });
 }
 
+/// Symbolic points against their own rounded coordinates: everything cancels down to the last bits, without being zero.
+#[test]
+fn points_next_to_their_rounded_selves() {
+    over_kinds(19, 1500, |r, kind| {
+        let near = vector(r, kind);
+        let (x, exact) = symbolic(r, kind, &near);
+        let c = round(&x);
+        if c.iter().any(|c| !c.is_finite()) {
+            return;
+        }
+        let (v, qc) = (Point::Vertex(c), q3(&c));
+        for axis in 0..3 {
+            let what = || format!("coordinate {axis} {x:?} {c:?}");
+            let expected = exact[axis].cmp(&qc[axis]);
+            same(compare_coordinate(&x, &v, axis), expected, what);
+            tiers(&CoordinateOrder(&x, &v, axis), Sign::from_ordering(expected), what);
+        }
+        let n = normal(r, kind);
+        let d = -(n[0] * c[0] + n[1] * c[1] + n[2] * c[2]);
+        let mut t = triangle(r, kind);
+        t[0] = c;
+        let supports = [Support::Plane(Plane { n, d: if d.is_finite() { d } else { 1.0 } }), Support::Triangle(t)];
+        for s in &supports {
+            let expected = sign(&reference::support_value(s, &exact));
+            let what = || format!("point side {s:?} {x:?}");
+            same(support_side(s, &x), expected, what);
+            tiers(&PointSide(s, &x), expected, what);
+        }
+        let (y, qy) = symbolic(r, kind, &near);
+        let (u, w) = (reference::sub(&qc, &exact), reference::sub(&qy, &exact));
+        let expected = sign(&(Q::from(&u[0] * &w[1]) - Q::from(&u[1] * &w[0])));
+        let what = || format!("turn {x:?} {c:?} {y:?}");
+        same(turn_projected(&x, &v, &y, 0, 1), expected, what);
+        tiers(&TurnProjected([&x, &v, &y], 0, 1), expected, what);
+    });
+}
+
 fn some_direction(r: &mut Random, kind: usize) -> Direction {
     match r.below(3) {
         0 => Direction::Plane(normal(r, kind)),

@@ -2,11 +2,12 @@
 
 mod common;
 use common::*;
-use lapidary::base::{DefectKind::*, EdgeId, ShellId, Status};
+use lapidary::base::{DefectKind::*, EdgeId, ShellId, Status, TriangleId};
 use lapidary::mesh::bvh::build_bvh;
 use lapidary::mesh::ray::{RayStart, Scene};
 use lapidary::mesh::shells::{WedgeScratch, wedge_mates};
 use lapidary::mesh::{MeshOptions, TriMesh};
+use rug::Rational;
 
 fn built(soup: &Soup) -> TriMesh {
     let mesh = build_soup(soup, merging()).unwrap_or_else(|e| panic!("{e}"));
@@ -21,18 +22,45 @@ fn wrong(soup: &Soup) -> Vec<i64> {
     found.iter().map(|c| c.ids[0]).collect()
 }
 
-/// Every anchor hits what the ray really hits first, on its solid side.
+/// Every anchor hits what the ray really hits first, by exact distances over all triangles, on its solid side.
 fn check_anchors(mesh: &TriMesh) {
     let bvh = build_bvh(&mesh.vertices, &mesh.triangles);
     bvh.check().unwrap();
     let scene = Scene { vertices: &mesh.vertices, triangles: &mesh.triangles, bvh: &bvh };
+    let exact = |x: [f64; 3]| x.map(|c| Rational::from_f64(c).unwrap());
     for (s, shell) in mesh.shells.iter().enumerate() {
         let Some(a) = shell.anchor else { continue };
         assert!(!shell.outer);
-        let start = RayStart { from: a.from, order: a.order, k: a.k, axis: a.axis, positive: a.positive };
-        let hit = scene.first_crossing(&start, &mut Vec::new()).unwrap().unwrap();
-        assert_eq!((hit.triangle, hit.leaves), (a.hit, true));
         assert_ne!(mesh.triangle_shell[a.hit.at()], ShellId::of(s));
+        let corners = a.order.map(|i| exact(mesh.corners(a.from)[i as usize]));
+        let k = Rational::from(a.k);
+        let weights = [Rational::from(1), k.clone(), Rational::from(&k * &k)];
+        let total = Rational::from(1) + &k + &weights[2];
+        let x: [Rational; 3] = std::array::from_fn(|i| {
+            let sum = (0..3).fold(Rational::new(), |s, c| s + Rational::from(&corners[c][i] * &weights[c]));
+            sum / &total
+        });
+        let start = RayStart { from: a.from, order: a.order, k: a.k, axis: a.axis, positive: a.positive };
+        // One by one: behind the first hit the ray may meet edges.
+        let mut crossings = Vec::new();
+        for t in (0..mesh.triangles.len()).map(TriangleId::of) {
+            let _ = scene.crossings(&start, |u| t == u, &mut crossings);
+        }
+        let mut found: Vec<(Rational, TriangleId, bool)> = Vec::new();
+        for c in crossings {
+            let q = mesh.corners(c.triangle).map(exact);
+            let minus = |a: &[Rational; 3], i: usize| Rational::from(&a[i] - &q[0][i]);
+            let normal: [Rational; 3] = std::array::from_fn(|i| {
+                let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+                minus(&q[1], j) * minus(&q[2], k) - minus(&q[1], k) * minus(&q[2], j)
+            });
+            let height = (0..3).fold(Rational::new(), |s, i| s + minus(&x, i) * &normal[i]);
+            let distance = -height / &normal[a.axis] * if a.positive { 1 } else { -1 };
+            assert!(distance > 0);
+            found.push((distance, c.triangle, c.leaves));
+        }
+        let first = found.iter().min().unwrap();
+        assert_eq!((first.1, first.2), (a.hit, true));
     }
 }
 
@@ -213,6 +241,78 @@ fn a_chain_of_linked_voids() {
 }
 
 #[test]
+fn voids_in_front_of_each_other() {
+    // The first void's lowest vertex is the tip of a spike; the middle of its flank lies behind the second void, whose
+    // lowest wall lies behind the first one's hook. The nearest rays would make them hang on each other.
+    let outline =
+        [[0., 0.], [14., 0.], [14., 6.], [0.5, 6.], [0.5, 1.5], [1.5, 1.5], [1.5, 5.5], [12., 5.5], [12., 1.]];
+    let inside = [[0, 1, 8], [1, 2, 8], [8, 2, 7], [7, 2, 6], [2, 3, 6], [3, 4, 6], [4, 5, 6]];
+    let n = outline.len() as i32;
+    let mut hooked = Soup::default();
+    for z in [0.0, 1.0] {
+        hooked.vertices.extend(outline.iter().map(|p| [p[0], p[1], z]));
+    }
+    for t in inside {
+        hooked.triangles.extend([[t[0], t[2], t[1]], t.map(|i| i + n)]);
+    }
+    for (i, j) in (0..n).map(|i| (i, (i + 1) % n)) {
+        hooked.triangles.extend([[i, j, j + n], [i, j + n, i + n]]);
+    }
+    let plate = cuboid([2.0, 0.3, 0.1], [3.0, 5.0, 0.9]);
+    for parts in [[hooked.clone(), plate.clone()], [plate, hooked]] {
+        let [a, b] = parts.map(flipped);
+        let soup = together(&[cube(-30.0, 30.0), a, b]);
+        assert!(build_soup(&soup, checking()).is_ok());
+        built(&soup);
+    }
+}
+
+/// xorshift.
+fn random(seed: u64) -> impl FnMut(u64) -> u64 {
+    let mut state = seed;
+    move |n| {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        (state >> 11) % n
+    }
+}
+
+#[test]
+fn tangles_of_linked_voids() {
+    // Coarse rings in any position, whose cheapest rays often hit one another in a circle.
+    let mut r = random(0x9e37_79b9_7f4a_7c15);
+    let mut tangles = 0;
+    for _ in 0..3000 {
+        let mut parts = vec![cube(-9.0, 9.0)];
+        for _ in 0..2 + r(2) {
+            let mut link = ring(3 + r(3) as usize, [0.0; 3], 2, 2.0, 0.25);
+            // A shear of a rotation will do: nothing here needs right angles.
+            let m: [[f64; 3]; 3] = std::array::from_fn(|_| std::array::from_fn(|_| r(17) as f64 / 8.0 - 1.0));
+            let shift: [f64; 3] = std::array::from_fn(|_| r(17) as f64 / 4.0 - 2.0);
+            let det = (0..3).fold(0.0, |s, i| {
+                let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+                s + m[0][i] * (m[1][j] * m[2][k] - m[1][k] * m[2][j])
+            });
+            if det == 0.0 {
+                continue;
+            }
+            for v in &mut link.vertices {
+                let x = *v;
+                *v = std::array::from_fn(|i| m[i][0] * x[0] + m[i][1] * x[1] + m[i][2] * x[2] + shift[i]);
+            }
+            parts.push(if det > 0.0 { flipped(link) } else { link });
+        }
+        let soup = together(&parts);
+        if build_soup(&soup, checking()).is_ok() {
+            built(&soup);
+            tangles += 1;
+        }
+    }
+    assert!(tangles > 100, "only {tangles} without contact");
+}
+
+#[test]
 fn rays_through_edges_and_vertices_are_evaded() {
     // A grid of equal voids: rays from centroids line up with diagonals, edges and corners of others when k is unlucky.
     let mut parts = vec![cube(-1.0, 20.0)];
@@ -234,13 +334,7 @@ fn rays_through_edges_and_vertices_are_evaded() {
 
 #[test]
 fn random_trees_of_boxes() {
-    let mut state = 0x2545_f491_4f6c_dd1du64;
-    let mut random = move |n: u64| {
-        state ^= state << 13;
-        state ^= state >> 7;
-        state ^= state << 17;
-        state % n
-    };
+    let mut random = random(0x2545_f491_4f6c_dd1d);
     for _ in 0..40 {
         // Each box is split into 2 × 2 × 2 cells, with children well inside some of them.
         let mut boxes: Vec<([f64; 3], f64, usize, Option<usize>)> = vec![([0.0; 3], 1024.0, 0, None)];

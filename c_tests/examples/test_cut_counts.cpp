@@ -49,7 +49,7 @@ void cut_one(const json& expected, const examples::Mesh& input, const std::strin
 int main(int, char** argv) {
   const std::string oracle = argv[1], meshes = argv[2], more = argv[3];
   if (!std::filesystem::exists(oracle) || !std::filesystem::exists(meshes + "/elephant.off")) {
-    std::printf("skipped: needs %s and CGAL's meshes in '%s' (set LAPIDARY_SHARED, LAPIDARY_MESHES)\n", oracle.c_str(), meshes.c_str());
+    std::printf("skipped: needs %s and CGAL's meshes in '%s' (set LAPIDARY_SHARED, LAPIDARY_CGAL_MESHES)\n", oracle.c_str(), meshes.c_str());
     return 77;
   }
   std::ifstream in(oracle);

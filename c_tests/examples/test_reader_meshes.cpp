@@ -10,7 +10,7 @@
 int main(int, char** argv) {
   const std::string oracle = argv[1], meshes = argv[2];
   if (!std::filesystem::exists(meshes + "/elephant.off")) {
-    std::printf("skipped: no meshes in '%s' (set LAPIDARY_MESHES)\n", meshes.c_str());
+    std::printf("skipped: no meshes in '%s' (set LAPIDARY_CGAL_MESHES)\n", meshes.c_str());
     return 77;
   }
   int read = 0;
