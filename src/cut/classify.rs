@@ -219,7 +219,7 @@ pub struct Place {
 #[inline(always)]
 pub fn members_between(a: u32, b: u32) -> std::ops::Range<u32> {
     let (low, high) = if a < b { (a, b) } else { (b, a) };
-    (low + 1) / 2..high / 2
+    low.div_ceil(2)..high / 2
 }
 
 /// Calls `hit(knife, sign at the first point)` for every knife with strictly opposite signs at two points given by

@@ -195,7 +195,7 @@ fn faces_of(
         join_holes(section, &seen, &holes, &loop_of, &mut face_of_loop)?;
     }
     let mut out = SectionFaces::default();
-    for (_, row) in loops.rows().enumerate() {
+    for row in loops.rows() {
         out.loops.items.extend(row.iter().map(|&h| (section.origin(h), section.pieces[h as usize / 2].edge)));
         out.loops.end_row();
     }

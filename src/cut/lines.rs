@@ -264,7 +264,7 @@ impl Scratch {
             self.set.push(leader.knife);
             at += 1;
             while at < self.crossing.len()
-                && compare_crossings(surface, p, q, ends, &leader, &self.crossing[at]) == Ordering::Equal
+                && compare_crossings(surface, p, q, &leader, &self.crossing[at]) == Ordering::Equal
             {
                 self.set.push(self.crossing[at].knife);
                 at += 1;
@@ -286,7 +286,7 @@ impl Scratch {
         for c in &mut self.crossing {
             (c.at, c.bound) = crossing_fraction(surface, c.knife, ends);
         }
-        self.crossing.sort_by(|a, b| compare_crossings(surface, p, q, ends, a, b));
+        self.crossing.sort_by(|a, b| compare_crossings(surface, p, q, a, b));
     }
 }
 
@@ -310,7 +310,6 @@ fn compare_crossings(
     surface: &Surface,
     p: KnifeId,
     q: KnifeId,
-    ends: [VertexId; 2],
     a: &CrossingKnife,
     b: &CrossingKnife,
 ) -> Ordering {
@@ -329,7 +328,6 @@ fn compare_crossings(
     // Exactly: the side of b's plane on which a's point lies, against the side where the segment starts.
     let point = Point::Planes { p: *knives.plane(p), q: *knives.plane(q), r: *knives.plane(a.knife) };
     let side = exact::support_side(&exact::Support::Plane(*knives.plane(b.knife)), &point);
-    let _ = ends;
     match (side, b.from_positive) {
         (Sign::Zero, _) => Ordering::Equal,
         (Sign::Positive, true) | (Sign::Negative, false) => Ordering::Less,
