@@ -45,6 +45,23 @@ impl Certified {
         self.hi.abs() * (1.0 + 4.0 * U)
     }
 
+    /// A third.
+    #[inline(always)]
+    pub fn third(self) -> Self {
+        let q = self.hi / 3.0;
+        // 3q = 2q + q and two exact remainders: what is left of hi, and of all.
+        let thrice = |q: f64| two_sum(2.0 * q, q);
+        let (a, b) = thrice(q);
+        let (r, s) = two_sum(self.hi - a, -b);
+        let (r, t) = two_sum(r, self.lo);
+        let (hi, lo) = fast_two_sum(q, r / 3.0);
+        // The second digit's remainder, by the same steps from the exact parts of the first (fast_two_sum is exact).
+        let (d, e) = thrice(r / 3.0);
+        let (left, f) = two_sum(r - d, -e);
+        let left = left.abs() + f.abs() + s.abs() + t.abs();
+        Self { hi, lo, err: (left + self.err) * (INFLATE / 3.0) + if left == 0.0 { 0.0 } else { f64::MIN_POSITIVE } }
+    }
+
     /// Exactly x − y.
     #[inline(always)]
     pub fn difference(x: f64, y: f64) -> Self {
@@ -117,6 +134,11 @@ impl std::ops::Add for Certified {
     /// Every step is an exact transformation of the sum into parts; the two parts that are dropped are the error.
     #[inline(always)]
     fn add(self, o: Self) -> Self {
+        // Input and what lies on axis-aligned planes has no low part.
+        if self.lo == 0.0 && o.lo == 0.0 {
+            let (hi, lo) = two_sum(self.hi, o.hi);
+            return Self { hi, lo, err: (self.err + o.err) * INFLATE };
+        }
         let (s, e) = two_sum(self.hi, o.hi);
         let (t, f) = two_sum(self.lo, o.lo);
         let (e, r) = two_sum(e, t);
@@ -141,14 +163,18 @@ impl std::ops::Mul for Certified {
     #[inline(always)]
     fn mul(self, o: Self) -> Self {
         let (p, e) = two_prod(self.hi, o.hi);
+        // The error term of a product too small to have one exactly; below, also cross terms that underflow.
+        let lost = if p.abs() < SMALL && self.hi != 0.0 && o.hi != 0.0 { f64::INFINITY } else { 0.0 };
+        if self.lo == 0.0 && o.lo == 0.0 {
+            let inherited = self.size() * o.err + (o.size() + o.err) * self.err;
+            return Self { hi: p, lo: e, err: inherited * INFLATE + lost };
+        }
         let (c, d) = (self.hi * o.lo, self.lo * o.hi);
         let cross = c + d;
         let (l, r) = two_sum(e, cross);
         let (hi, lo) = two_sum(p, l);
         let dropped = r.abs() + U * (c.abs() + d.abs() + cross.abs()) + (self.lo * o.lo).abs();
         let inherited = self.size() * o.err + (o.size() + o.err) * self.err;
-        // The error term of a product too small to have one exactly; and cross terms that underflow.
-        let lost = if p.abs() < SMALL && self.hi != 0.0 && o.hi != 0.0 { f64::INFINITY } else { 0.0 };
         let under = if self.lo != 0.0 || o.lo != 0.0 { p.abs() * CROSS } else { 0.0 };
         Self { hi, lo, err: (dropped + inherited + under) * INFLATE + lost }
     }

@@ -39,11 +39,12 @@ pub struct Moments {
     pub exact_faces: usize,
 }
 
-/// What cells need of a face: its area vector, and its centroid relative to its first corner.
+/// What cells need of a face: its area vector, and three times its centroid relative to its first corner (a triangle's
+/// needs no division).
 #[derive(Clone, Copy)]
 struct FaceSums {
     area: Vector,
-    centroid: Vector,
+    centroids: Vector,
 }
 
 /// A result: rounded values, flag, and whether rationals were needed.
@@ -222,29 +223,25 @@ fn face(c: &Complex, points: &[Vector], f: FaceId) -> (FaceSums, Item<6>) {
     let corners = c.face_corners(f);
     let vertices = &c.corner_vertices[corners.clone()];
     let p0 = &points[vertices[0].at()];
-    let (area, centroid);
-    if let [_, b, d] = *vertices {
-        let (u, v) = (minus(&points[b.at()], p0), minus(&points[d.at()], p0));
+    let area;
+    let (centroids, place) = if let [_, b, d] = *vertices {
+        let (b, d) = (&points[b.at()], &points[d.at()]);
+        let (u, v) = (minus(b, p0), minus(d, p0));
         // A triangle on a plane has the plane's direction, exactly; and all triangles have their middle.
         area = match c.face_support[f.at()] {
             SupportId::Triangle(_) => cross(&u, &v).map(|x| x.scaled(0.5)),
             SupportId::Plane(_) => polygon(c, points, f, projection(c, f)).area,
         };
-        let third = Certified::exactly(3.0);
-        centroid = add(&u, &v).map(|x| x / third);
+        (add(&u, &v), add(&add(p0, b), d).map(Certified::third))
     } else {
         let sums = polygon(c, points, f, projection(c, f));
-        (area, centroid) = (sums.area, middle(points, vertices).map_or(sums.centroid, |m| minus(&m, p0)));
-    }
-    let place = match *vertices {
-        // Rounded from one quotient, so that a tie is seen.
-        [_, b, d] => {
-            let third = Certified::exactly(3.0);
-            add(&add(p0, &points[b.at()]), &points[d.at()]).map(|x| x / third)
+        area = sums.area;
+        match middle(points, vertices) {
+            Some(m) => (minus(&m, p0).map(|x| x.times(3.0)), m),
+            None => (sums.centroids, add(p0, &sums.centroids.map(Certified::third))),
         }
-        _ => middle(points, vertices).unwrap_or_else(|| add(p0, &centroid)),
     };
-    let sums = FaceSums { area, centroid };
+    let sums = FaceSums { area, centroids };
     let all = [area[0], area[1], area[2], place[0], place[1], place[2]];
     let item = match round_all(all) {
         Some(values) => Item { values, flag: 0, exact: false },
@@ -266,7 +263,7 @@ fn middle(points: &[Vector], vertices: &[VertexId]) -> Option<Vector> {
         .then(|| p.map(|x| x.scaled(0.5)))
 }
 
-/// Area vector and centroid (relative to the first corner) of any face, with slits and isolated vertices: what is
+/// Area vector and centroid of any face, with slits and isolated vertices: what is
 /// walked twice cancels, and a loop of one vertex contributes nothing.
 fn polygon(c: &Complex, points: &[Vector], f: FaceId, pr: Projection) -> FaceSums {
     let depth = 3 - pr.ax - pr.ay;
@@ -303,12 +300,12 @@ fn polygon(c: &Complex, points: &[Vector], f: FaceId, pr: Projection) -> FaceSum
         false if n[i].is_zero() => Certified::ZERO,
         false => scale * n[i],
     });
-    let divisor = doubled.times(3.0);
-    let centroid = std::array::from_fn(|i| if flat && i == depth { Certified::ZERO } else { first[i] / divisor });
-    FaceSums { area, centroid }
+    let centroids = std::array::from_fn(|i| if flat && i == depth { Certified::ZERO } else { first[i] / doubled });
+    FaceSums { area, centroids }
 }
 
-/// Three times the volume, and the sum of 3V (centroid of face − corner) over the faces of a piece of a cell.
+/// Three times the volume V, and the sum of 9V (centroid − corner) of the cones over the faces of a piece of a cell, less
+/// the factor 3/4 that a cone's centroid has towards its base's.
 fn gather(c: &Complex, points: &[Vector], sums: &[FaceSums], faces: &[HalfFace], o: &Vector) -> [Certified; 4] {
     let mut total = [Certified::ZERO; 4];
     for h in faces {
@@ -326,7 +323,7 @@ fn gather(c: &Complex, points: &[Vector], sums: &[FaceSums], faces: &[HalfFace],
         let v = if h.front() { -v } else { v };
         total[0] = total[0] + v;
         for i in 0..3 {
-            total[i + 1] = total[i + 1] + v * (q[i] + s.centroid[i]);
+            total[i + 1] = total[i + 1] + v * (q[i] + q[i].scaled(2.0) + s.centroids[i]);
         }
     }
     total
@@ -350,10 +347,9 @@ fn cell(c: &Complex, points: &[Vector], sums: &[FaceSums], k: CellId) -> Item<4>
         let pieces: Vec<_> = faces.par_chunks(PIECE).map(|p| gather(c, points, sums, p, o)).collect();
         pieces.iter().fold([Certified::ZERO; 4], |s, p| std::array::from_fn(|i| s[i] + p[i]))
     };
-    let volume = total[0] / Certified::exactly(3.0);
-    // A cone's centroid is 3/4 of the way from its apex.
+    let volume = total[0].third();
     let weight = total[0].scaled(4.0);
-    let m: Vector = std::array::from_fn(|i| o[i] + total[i + 1].times(3.0) / weight);
+    let m: Vector = std::array::from_fn(|i| o[i] + total[i + 1] / weight);
     match round_all([volume, m[0], m[1], m[2]]) {
         Some(values) => Item { values, flag: 0, exact: false },
         None => {
