@@ -110,7 +110,7 @@ fn two_cubes_sharing_an_edge() {
 #[test]
 fn wedges_at_an_edge_in_any_order() {
     // Five wedges, one of them wider than a quarter turn; rotated through the list so that every triangle comes first.
-    let mut parts = vec![(0, 1), (2, 3), (4, 5), (6, 8), (9, 11)];
+    let mut parts = [(0, 1), (2, 3), (4, 5), (6, 8), (9, 11)];
     for turn in 0..12 {
         parts.rotate_left(2);
         let turned: Vec<(usize, usize)> = parts.iter().map(|&(a, b)| (a + turn, b + turn)).collect();
@@ -320,8 +320,7 @@ fn rays_through_edges_and_vertices_are_evaded() {
         let (x, y, z) = ((i % 6) as f64 * 3.0, (i / 6 % 6) as f64 * 3.0, (i / 36) as f64 * 3.0);
         // An octahedron whose apexes lie on common lines with those of the others.
         let p = |dx: f64, dy: f64, dz: f64| [x + dx, y + dy, z + dz];
-        let vertices =
-            vec![p(1., 0., 0.), p(-1., 0., 0.), p(0., 1., 0.), p(0., -1., 0.), p(0., 0., 1.), p(0., 0., -1.)];
+        let vertices = [p(1., 0., 0.), p(-1., 0., 0.), p(0., 1., 0.), p(0., -1., 0.), p(0., 0., 1.), p(0., 0., -1.)];
         let mut triangles = Vec::new();
         for (a, b) in [(0, 2), (2, 1), (1, 3), (3, 0)] {
             triangles.extend([[b, a, 4], [a, b, 5]]);
@@ -355,7 +354,7 @@ fn random_trees_of_boxes() {
             order.swap(i, random(i as u64 + 1) as usize);
         }
         let odd_one = (random(2) == 0).then(|| random(boxes.len() as u64) as usize);
-        let outer = |b: usize| (boxes[b].2 % 2 == 0) != (odd_one == Some(b));
+        let outer = |b: usize| (boxes[b].2.is_multiple_of(2)) != (odd_one == Some(b));
         let part = |&b: &usize| {
             let (lo, size, ..) = boxes[b];
             let solid = cuboid(lo, lo.map(|c| c + size));

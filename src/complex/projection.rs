@@ -102,16 +102,10 @@ pub fn turn(c: &Complex, pr: Projection, a: VertexId, b: VertexId, d: VertexId) 
 
 /// Order of two vertices along one axis, exactly.
 pub fn compare_axis(c: &Complex, a: VertexId, b: VertexId, axis: usize) -> Ordering {
-    let (x, y) = (c.coords[a.at()][axis], c.coords[b.at()][axis]);
-    if x < y {
-        Ordering::Less
-    } else if x > y {
-        Ordering::Greater
-    } else if a == b {
-        Ordering::Equal
-    } else {
-        exact::compare_coordinate(&c.point(a), &c.point(b), axis)
+    if a == b {
+        return Ordering::Equal;
     }
+    exact::compare_rounded(c.coords[a.at()][axis], c.coords[b.at()][axis], || c.point(a), || c.point(b), axis)
 }
 
 /// Lexicographic order in the projection. Two vertices of one face are equal only if they are the same.

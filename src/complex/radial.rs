@@ -11,8 +11,9 @@
 //!
 //! Two faces in one half-plane would be one face: they occur only where the input intersects itself.
 
+use super::projection::compare_axis;
 use super::{Complex, HalfFace, SupportId};
-use crate::base::{EdgeId, Error, FaceId, Result, VertexId};
+use crate::base::{EdgeId, Error, FaceId, Result};
 use crate::exact::{self, Direction, Sign, counters, sort_cyclic};
 use std::cmp::Ordering;
 
@@ -186,13 +187,9 @@ pub fn face_normal(c: &Complex, f: FaceId) -> Direction {
 fn edge_axis(c: &Complex, edge: EdgeId) -> Option<(usize, bool)> {
     let [a, b] = c.edges[edge.at()];
     let (xa, xb) = (&c.coords[a.at()], &c.coords[b.at()]);
-    // Rounding is monotone: coordinates that differ rounded differ exactly, the same way.
+    // The widest first: it nearly always differs already when rounded.
     let best = (0..3).max_by(|&i, &j| (xa[i] - xb[i]).abs().total_cmp(&(xa[j] - xb[j]).abs())).unwrap();
-    if xa[best] != xb[best] {
-        return Some((best, xa[best] < xb[best]));
-    }
-    let point = |v: VertexId| c.point(v);
-    (0..3).find_map(|axis| match exact::compare_coordinate(&point(a), &point(b), axis) {
+    [best, (best + 1) % 3, (best + 2) % 3].into_iter().find_map(|axis| match compare_axis(c, a, b, axis) {
         Ordering::Equal => None,
         order => Some((axis, order == Ordering::Less)),
     })

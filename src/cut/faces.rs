@@ -29,17 +29,13 @@ impl AllVertices<'_> {
         origin_point(self.surface.mesh, self.surface.input_planes, self.origins[v.at()])
     }
 
-    /// Orders two vertices by a coordinate (rounding is monotone, see `Surface::compare_coordinate`).
+    /// Orders two vertices by a coordinate.
     pub fn compare_coordinate(&self, a: VertexId, b: VertexId, axis: usize) -> Ordering {
-        let (xa, xb) = (self.coords[a.at()][axis], self.coords[b.at()][axis]);
-        if xa != xb {
-            counters::count_filter(counters::Predicate::CoordinateOrder);
-            return if xa < xb { Ordering::Less } else { Ordering::Greater };
-        }
         if a == b {
             return Ordering::Equal;
         }
-        exact::compare_coordinate(&self.point(a), &self.point(b), axis)
+        let (x, y) = (self.coords[a.at()][axis], self.coords[b.at()][axis]);
+        exact::compare_rounded(x, y, || self.point(a), || self.point(b), axis)
     }
 }
 

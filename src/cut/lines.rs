@@ -306,13 +306,7 @@ fn crossing_fraction(surface: &Surface, k: KnifeId, ends: [VertexId; 2]) -> (f64
     }
 }
 
-fn compare_crossings(
-    surface: &Surface,
-    p: KnifeId,
-    q: KnifeId,
-    a: &CrossingKnife,
-    b: &CrossingKnife,
-) -> Ordering {
+fn compare_crossings(surface: &Surface, p: KnifeId, q: KnifeId, a: &CrossingKnife, b: &CrossingKnife) -> Ordering {
     let knives = surface.knives;
     if knives.family[a.knife.at()] == knives.family[b.knife.at()] {
         counters::count_topology(counters::Predicate::PointOrder);

@@ -192,18 +192,13 @@ impl Surface<'_> {
         });
     }
 
-    /// Orders two vertices of the surface by a coordinate. Rounding to nearest is monotone: where the correctly rounded
-    /// coordinates differ, the exact ones differ the same way, so this filter needs no bound; equal ones decide nothing.
+    /// Orders two vertices of the surface by a coordinate.
     pub fn compare_coordinate(&self, a: VertexId, b: VertexId, axis: usize) -> Ordering {
-        let (xa, xb) = (self.coords[a.at()][axis], self.coords[b.at()][axis]);
-        if xa != xb {
-            counters::count_filter(counters::Predicate::CoordinateOrder);
-            return if xa < xb { Ordering::Less } else { Ordering::Greater };
-        }
         if a == b {
             return Ordering::Equal;
         }
-        exact::compare_coordinate(&self.point(a), &self.point(b), axis)
+        let (x, y) = (self.coords[a.at()][axis], self.coords[b.at()][axis]);
+        exact::compare_rounded(x, y, || self.point(a), || self.point(b), axis)
     }
 }
 

@@ -28,8 +28,8 @@ pub use cyclic::sort_cyclic;
 pub use filter::PlaneFilter;
 pub use planes::{Grouping, group};
 pub use predicates::{
-    collinear, compare_coordinate, compare_on_edge, compare_projected, cross_dot_cross, determinant, dot, orient3d,
-    side, support_side, triangle_determinant, turn_projected,
+    collinear, compare_coordinate, compare_on_edge, compare_projected, compare_rounded, cross_dot_cross, determinant,
+    dot, orient3d, side, support_side, triangle_determinant, turn_projected,
 };
 pub use residue::Residue;
 pub use round::{approx, rational, round, round_rational};

@@ -175,6 +175,17 @@ pub fn compare_coordinate(a: &Point, b: &Point, axis: usize) -> Ordering {
     sign_of(&CoordinateOrder(a, b, axis)).to_ordering()
 }
 
+/// Orders two symbolic points by a coordinate whose correctly rounded values are at hand. Rounding to nearest is monotone: where
+/// the doubles differ, the exact values differ the same way, so this filter needs no bound; equal doubles decide nothing.
+#[inline]
+pub fn compare_rounded(x: f64, y: f64, a: impl FnOnce() -> Point, b: impl FnOnce() -> Point, axis: usize) -> Ordering {
+    if x != y {
+        super::counters::count_filter(super::counters::Predicate::CoordinateOrder);
+        return if x < y { Ordering::Less } else { Ordering::Greater };
+    }
+    compare_coordinate(&a(), &b(), axis)
+}
+
 /// A direction over a ring.
 pub fn direction<K: Kernel>(k: &K, d: &Direction) -> [K::N; 3] {
     match d {
