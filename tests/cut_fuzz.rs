@@ -97,7 +97,7 @@ fn small_integer_planes() {
     let merged = MeshOptions { merge_duplicate_vertices: true, ..Default::default() };
     let mut failed = Vec::new();
     for (name, soup) in solids() {
-        let mesh = Arc::new(common::build_soup(&soup, merged.clone()).unwrap());
+        let mesh = Arc::new(common::build_soup(&soup, merged).unwrap());
         for round in 0..rounds(60) {
             let count = 1 + random.below(9);
             let mut planes: Vec<Plane> =

@@ -46,14 +46,17 @@ fn cut_case(case: &Case) -> Complex {
     cut(&mesh, &case.planes, &CutOptions::default(), &mut Run::quiet()).unwrap().complex
 }
 
-/// A complex without names: vertices are exact points in lexicographic order, everything else a set of what bounds it. Faces
-/// carry the sorted planes' coefficients and the tag-free kind of their support; cells carry the bits of their volume.
+/// A face: its loops, each as the sorted set of its edges.
+type Loops = Vec<Vec<[usize; 2]>>;
+
+/// A complex without names: vertices are exact points in lexicographic order, everything else a set of what bounds it; cells
+/// carry the bits of their volume.
 #[derive(PartialEq, Eq, Debug)]
 struct Nameless {
     points: Vec<[Rational; 3]>,
     edges: BTreeSet<[usize; 2]>,
-    faces: BTreeSet<Vec<Vec<[usize; 2]>>>,
-    cells: BTreeSet<(u64, Vec<Vec<Vec<[usize; 2]>>>)>,
+    faces: BTreeSet<Loops>,
+    cells: BTreeSet<(u64, Vec<Loops>)>,
 }
 
 /// `map` moves an exact point before it is named.
@@ -67,7 +70,7 @@ fn nameless(c: &Complex, map: impl Fn([Rational; 3]) -> [Rational; 3], volume_sc
         let (a, b) = (name[a.at()], name[b.at()]);
         [a.min(b), a.max(b)]
     };
-    let face = |f: FaceId| -> Vec<Vec<[usize; 2]>> {
+    let face = |f: FaceId| -> Loops {
         let mut loops: Vec<Vec<[usize; 2]>> = c
             .loops_of(f)
             .map(|l| {

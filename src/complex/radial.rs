@@ -127,13 +127,20 @@ pub fn wedge_pairs(
             return Ok(());
         }
     }
-    scratch.clear();
-    scratch.extend(0..uses.len() as u32);
     let Some((axis, along)) = edge_axis(c, edge) else { return Err(contradiction(edge)) };
-    let normal = |i: u32| face_normal(c, uses[i as usize].face);
     let mut unit = [0.0; 3];
     unit[axis] = 1.0;
     let unit = Direction::Plane(unit);
+    if let Some(order) = crossing_of_two_planes(c, uses, &unit, along) {
+        for (k, &i) in order.iter().enumerate() {
+            let j = order[(k + 1) % 4];
+            pair(i, uses[i as usize].far(), j, uses[j as usize].near());
+        }
+        return Ok(());
+    }
+    scratch.clear();
+    scratch.extend(0..uses.len() as u32);
+    let normal = |i: u32| face_normal(c, uses[i as usize].face);
     let same = |i: u32, j: u32| uses[i as usize].forward == uses[j as usize].forward;
     let support = |i: u32| c.face_support[uses[i as usize].face.at()];
     sort_cyclic(
@@ -166,6 +173,29 @@ pub fn wedge_pairs(
         }
     }
     Ok(())
+}
+
+/// The cycle around a plain line inside, where two planes cross: one determinant tells the order of all four faces.
+fn crossing_of_two_planes(c: &Complex, uses: &[FaceUse], unit: &Direction, along: bool) -> Option<[u32; 4]> {
+    if uses.len() != 4 || uses.iter().any(|&u| on_surface(c, u)) {
+        return None;
+    }
+    let support = |i: u32| c.face_support[uses[i as usize].face.at()];
+    let forward = |i: u32| uses[i as usize].forward;
+    let back = (1..4).find(|&i| support(i) == support(0))?;
+    let mut rest = (1..4).filter(|&i| i != back);
+    let (x, y) = (rest.next()?, rest.next()?);
+    if support(x) != support(y) || support(x) == support(0) || forward(0) == forward(back) || forward(x) == forward(y) {
+        return None;
+    }
+    let normal = |i: u32| face_normal(c, uses[i as usize].face);
+    let sign = exact::determinant(&normal(0), &normal(x), unit);
+    let turn = if (forward(0) == forward(x)) == along { sign } else { -sign };
+    match turn {
+        Sign::Positive => Some([0, x, back, y]),
+        Sign::Negative => Some([0, y, back, x]),
+        Sign::Zero => None,
+    }
 }
 
 fn contradiction(edge: EdgeId) -> Error {

@@ -13,7 +13,7 @@
 //! Cost: |V|·(Σ log m over families + single planes); crossings grow with their number.
 
 use crate::base::{Csr, EdgeId, PlaneId, VertexId};
-use crate::exact::{self, Direction, Plane, PlaneFilter, Sign};
+use crate::exact::{self, Direction, Plane, PlaneFilter, Sign, counters};
 use crate::mesh::TriMesh;
 
 /// A distinct plane: families in order, members by rank, single planes last.
@@ -372,14 +372,29 @@ fn fill_masks(mesh: &TriMesh, knives: &Knives, sides: &mut Sides) {
         return;
     }
     sides.masks.par_chunks_mut(words * 2 * CHUNK).zip(mesh.vertices.par_chunks(CHUNK)).for_each(|(masks, vertices)| {
-        // Plane by plane within a word: the plane stays in registers and the dot products run as one loop.
+        // Plane by plane, without a branch: the few vertices whose sign the bound does not settle come afterwards.
         for i in 0..count {
-            let (word, bit) = (i / 64, 1u64 << (i % 64));
+            let (word, bit) = (i / 64 * 2, i % 64);
+            let knife = KnifeId::of(base + i);
+            let mut open = 0;
             for (mask, x) in masks.chunks_exact_mut(words * 2).zip(vertices) {
-                match knives.side_of_input(base + i, x) {
-                    Sign::Positive => mask[word * 2] |= bit,
-                    Sign::Negative => mask[word * 2 + 1] |= bit,
-                    Sign::Zero => {}
+                let (value, bound) = knives.value_at_rounded(knife, x);
+                let (positive, negative) = ((value > bound) as u64, (value < -bound) as u64);
+                mask[word] |= positive << bit;
+                mask[word + 1] |= negative << bit;
+                open += 1 - (positive | negative);
+            }
+            counters::count_many(counters::Predicate::Side, counters::Tier::Filter, vertices.len() as u64 - open);
+            if open == 0 {
+                continue;
+            }
+            for (mask, x) in masks.chunks_exact_mut(words * 2).zip(vertices) {
+                if (mask[word] | mask[word + 1]) >> bit & 1 == 0 {
+                    match knives.side_of_input(base + i, x) {
+                        Sign::Positive => mask[word] |= 1 << bit,
+                        Sign::Negative => mask[word + 1] |= 1 << bit,
+                        Sign::Zero => {}
+                    }
                 }
             }
         }

@@ -120,6 +120,10 @@ impl Section {
             }
             row.clear();
             row.extend_from_slice(&self.star.items[range.clone()]);
+            if let Some(order) = self.crossing_of_two_lines(surface, &row) {
+                self.star.items[range].copy_from_slice(&order);
+                continue;
+            }
             // A line first: against a line, the order of surface pieces is the side of a plane, mostly known.
             if let Some(at) =
                 row.iter().position(|&h| matches!(self.pieces[h as usize / 2].carrier, Carrier::Line { .. }))
@@ -128,6 +132,30 @@ impl Section {
             }
             sort_cyclic(&mut row, |a, b| self.turn(surface, *a, *b), |a, b| self.opposite(*a, *b));
             self.star.items[range].copy_from_slice(&row);
+        }
+    }
+
+    /// The star of a plain point inside, where two lines cross: one determinant tells the order of all four half-edges.
+    fn crossing_of_two_lines(&self, surface: &Surface, row: &[u32]) -> Option<[u32; 4]> {
+        let &[a, b, c, d] = row else { return None };
+        let line = |h: u32| match self.pieces[h as usize / 2].carrier {
+            Carrier::Line { other, .. } => Some(other),
+            _ => None,
+        };
+        let [la, lb, lc, ld] = [line(a)?, line(b)?, line(c)?, line(d)?];
+        let (back, x, y) = if la == lb && lc == ld {
+            (b, c, d)
+        } else if la == lc && lb == ld {
+            (c, b, d)
+        } else if la == ld && lb == lc {
+            (d, b, c)
+        } else {
+            return None;
+        };
+        match self.turn_by_value(surface, a, x) {
+            Sign::Positive => Some([a, x, back, y]),
+            Sign::Negative => Some([a, y, back, x]),
+            Sign::Zero => None,
         }
     }
 
