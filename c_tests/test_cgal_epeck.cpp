@@ -173,7 +173,7 @@ int main()
         guarded(name, data.meshes.at(name), 5);
     }
 #ifdef LAPIDARY_TEST_MESHES
-    for (const char *name : {"elephant", "3torus"}) {
+    for (const char *name : {"elephant", "3torus", "couplingdown"}) {
         const std::string path = std::string(LAPIDARY_TEST_MESHES "/") + name + ".off";
         if (!std::filesystem::exists(path)) {
             std::cout << name << ": skipped, " << path << " is not there" << std::endl;
@@ -183,7 +183,7 @@ int main()
         guarded(name, s, 3);
     }
 #else
-    std::cout << "elephant, 3torus: skipped, CGAL's meshes were not given (LAPIDARY_MESHES)" << std::endl;
+    std::cout << "elephant, 3torus, couplingdown: skipped, CGAL's meshes were not given (LAPIDARY_MESHES)" << std::endl;
 #endif
     return check_result();
 }
