@@ -42,8 +42,8 @@ fn clip(polygon: &[Q3], n: &Q3, o: &Q3) -> Vec<Q3> {
             out.push(a.clone());
         }
         if (da > 0 && db < 0) || (da < 0 && db > 0) {
-            let t = Rational::from(&da / Rational::from(&da - &db));
-            out.push(std::array::from_fn(|k| Rational::from(&a[k] + Rational::from(&b[k] - &a[k]) * &t)));
+            let t = &da / Rational::from(&da - &db);
+            out.push(std::array::from_fn(|k| &a[k] + Rational::from(&b[k] - &a[k]) * &t));
         }
     }
     out
