@@ -105,7 +105,7 @@ pub fn cut(mesh: &Arc<TriMesh>, planes: &[Plane], _options: &CutOptions, run: &m
     let located = voids::Located { all: &all, sections: &graphs, faces: &section_faces, first_face: &first_face };
     let hosts = voids::hosts(&complex, &found, &located)?;
     shells::form_cells(&mut complex, &found, &hosts)?;
-    bodies::assign_components(&mut complex);
+    bodies::assign_components(&mut complex)?;
     let plane_map = knives.knife_of.iter().map(|k| knives.ids[k.at()]).collect();
     run.end_stage();
     Ok(Cut { complex, plane_map, stages: run.take_stages() })

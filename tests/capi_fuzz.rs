@@ -1,0 +1,166 @@
+//! Random input, good and bad, through the C functions: every call ends with a status of the documented ones and a handle
+//! exactly on success; what is made passes its own check and adds up. Deterministic.
+
+use lapidary::capi::{complex::*, context::*, cut::*, derived::*, mesh::*, status::*};
+use std::ptr::{null, null_mut};
+
+/// xorshift64*
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> u64 {
+        self.0 ^= self.0 >> 12;
+        self.0 ^= self.0 << 25;
+        self.0 ^= self.0 >> 27;
+        self.0.wrapping_mul(0x2545_f491_4f6c_dd1d)
+    }
+    fn below(&mut self, n: u64) -> u64 {
+        self.next() % n
+    }
+    /// Small whole numbers nearly always, so that everything degenerate happens; now and then anything at all.
+    fn number(&mut self, wild: u64) -> f64 {
+        match self.below(64) {
+            i if i < wild => f64::from_bits(self.next()),
+            i if i < 2 * wild => {
+                [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, f64::MAX, f64::MIN_POSITIVE, 5e-324, -0.0]
+                    [self.below(7) as usize]
+            }
+            _ => self.below(7) as f64 - 3.0,
+        }
+    }
+}
+
+const CUBE: [i32; 36] =
+    [0, 2, 1, 0, 3, 2, 4, 5, 6, 4, 6, 7, 0, 1, 5, 0, 5, 4, 1, 2, 6, 1, 6, 5, 2, 3, 7, 2, 7, 6, 3, 0, 4, 3, 4, 7];
+
+/// A box, or two that may touch, cross or lie within one another, or a heap of random triangles.
+fn soup(r: &mut Random) -> (Vec<f64>, Vec<i32>) {
+    let wild = [0, 0, 0, 1, 4][r.below(5) as usize];
+    let (mut xyz, mut indices) = (Vec::new(), Vec::new());
+    if r.below(4) == 0 {
+        for _ in 0..3 * r.below(10) {
+            xyz.push(r.number(wild));
+        }
+        for _ in 0..3 * r.below(12) {
+            indices.push(r.below(11) as i32 - 1);
+        }
+        return (xyz, indices);
+    }
+    for _ in 0..1 + r.below(2) {
+        let first = (xyz.len() / 3) as i32;
+        let low: [f64; 3] = std::array::from_fn(|_| r.number(wild));
+        let size: [f64; 3] = std::array::from_fn(|_| 1.0 + r.below(4) as f64);
+        for corner in [0, 1, 3, 2, 4, 5, 7, 6] {
+            for axis in 0..3 {
+                // Corners move now and then: skew boxes, which may turn inside out.
+                let shift = if r.below(12) == 0 { r.number(wild) } else { 0.0 };
+                xyz.push(low[axis] + size[axis] * f64::from(corner >> axis & 1) + shift);
+            }
+        }
+        let inside_out = r.below(3) == 0;
+        for t in CUBE.chunks(3) {
+            let [a, b, c] = [t[0], t[1], t[2]].map(|v| v + first);
+            indices.extend(if inside_out { [b, a, c] } else { [a, b, c] });
+        }
+    }
+    if r.below(10) == 0 {
+        let i = r.below(indices.len() as u64) as usize;
+        indices[i] = r.below(20) as i32 - 2;
+    }
+    (xyz, indices)
+}
+
+#[test]
+fn any_input_ends_with_a_status() {
+    let mut r = Random(0x6c61_7069_6461_7279);
+    let (mut meshes, mut cuts, mut bad, mut inconsistent) = (0, 0, 0, 0);
+    unsafe {
+        let mut context = null_mut();
+        assert_eq!(lap_context_new(&mut context), LAP_OK);
+        for round in 0..6000 {
+            let (xyz, indices) = soup(&mut r);
+            let (n, m) = ((xyz.len() / 3) as i64, (indices.len() / 3) as i64);
+            let checked = r.below(2) == 0;
+            let options = lap_mesh_options {
+                struct_size: size_of::<lap_mesh_options>() as i32,
+                merge_duplicate_vertices: r.below(2) as i32,
+                check_self_intersection: checked as i32,
+            };
+            let mut mesh = null_mut();
+            let status = lap_mesh_new(context, n, xyz.as_ptr(), m, indices.as_ptr(), null(), &options, &mut mesh);
+            assert_eq!(status == LAP_OK, !mesh.is_null(), "round {round}");
+            if status != LAP_OK {
+                assert!([LAP_ERR_BAD_MESH, LAP_ERR_INCONSISTENT].contains(&status), "round {round}: {status}");
+                assert!(!(checked && status == LAP_ERR_INCONSISTENT), "round {round}: checked, and yet inconsistent");
+                let mut count = 0;
+                assert_eq!(lap_context_last_defects(context, &mut count, null_mut(), null_mut()), LAP_OK);
+                assert_eq!(count > 0, status == LAP_ERR_BAD_MESH, "round {round}");
+                bad += 1;
+                continue;
+            }
+            meshes += 1;
+            let wild = [0, 0, 1, 3][r.below(4) as usize];
+            let planes: Vec<f64> = (0..4 * r.below(7)).map(|_| r.number(wild)).collect();
+            let mut cut = null_mut();
+            let status = lap_cut_new(context, mesh, (planes.len() / 4) as i64, planes.as_ptr(), null(), &mut cut);
+            assert_eq!(status == LAP_OK, !cut.is_null(), "round {round}");
+            if status == LAP_OK {
+                cuts += 1;
+                consistent(context, mesh, cut, checked, round);
+                assert_eq!(lap_cut_free(cut), LAP_OK);
+            } else {
+                assert!([LAP_ERR_BAD_PLANE, LAP_ERR_INCONSISTENT].contains(&status), "round {round}: {status}");
+                assert!(!(checked && status == LAP_ERR_INCONSISTENT), "round {round}: checked, and yet inconsistent");
+                inconsistent += (status == LAP_ERR_INCONSISTENT) as i32;
+            }
+            assert_eq!(lap_mesh_free(mesh), LAP_OK);
+        }
+        assert_eq!(lap_context_free(context), LAP_OK);
+    }
+    println!("{meshes} meshes, {bad} refused; {cuts} cuts, {inconsistent} of self-intersecting input refused");
+    // The generator is worth something only if it gets everywhere.
+    assert!(meshes > 500 && bad > 500 && cuts > 300);
+}
+
+/// What holds of any result, and of a result for checked input.
+unsafe fn consistent(
+    context: *mut lap_context,
+    mesh: *const lap_mesh,
+    cut: *const lap_cut,
+    checked: bool,
+    round: usize,
+) {
+    unsafe {
+        let mut complex = null();
+        assert_eq!(lap_cut_complex(cut, &mut complex), LAP_OK);
+        let mut message = null();
+        let status = lap_complex_check(context, complex);
+        lap_context_last_error(context, null_mut(), &mut message);
+        let message = std::ffi::CStr::from_ptr(message);
+        // The geometry of self-intersecting input is unspecified, so areas and volumes may fail; the structure may not.
+        assert!(status == LAP_OK || (status == LAP_ERR_INCONSISTENT && !checked), "round {round}: {message:?}");
+        assert_eq!(lapidary::complex::check(&(*complex).data), Ok(()), "round {round}, checked: {checked}");
+        let (mut cells, mut volumes, mut flags) = (0, null(), null());
+        assert_eq!(lap_complex_cell_moments(complex, &mut cells, &mut volumes, null_mut(), &mut flags), LAP_OK);
+        for style in [LAP_FACES_HOLES, LAP_FACES_BRIDGED, LAP_FACES_TRIANGLES] {
+            let status = lap_complex_polygons(complex, style, null_mut(), null_mut(), null_mut(), null_mut());
+            assert!(status == LAP_OK || (status == LAP_ERR_INCONSISTENT && !checked), "round {round}: style {style}");
+        }
+        let (mut output, mut input) = (0, 0);
+        let status = lap_complex_euler(complex, &mut output, &mut input);
+        assert!(status == LAP_OK || !checked, "round {round}");
+        if !checked {
+            return;
+        }
+        let volumes = std::slice::from_raw_parts(volumes, cells as usize);
+        let flags = std::slice::from_raw_parts(flags, cells as usize);
+        assert!(cells > 0 && volumes.iter().zip(flags).all(|(v, f)| *v > 0.0 || *f != 0), "round {round}");
+        let mut whole = 0.0;
+        assert_eq!(lap_mesh_volume(mesh, &mut whole), LAP_OK);
+        if whole.is_finite() && flags.iter().all(|f| *f == 0) {
+            // Each within four units in the last place, and a rounding for each addition.
+            let bound = 8.0 * f64::EPSILON * whole * (cells as f64 + 1.0);
+            assert!((volumes.iter().sum::<f64>() - whole).abs() <= bound, "round {round}");
+        }
+    }
+}
