@@ -33,6 +33,9 @@ pub struct EarScratch {
     /// A queue entry counts only if it carries its corner's newest stamp.
     stamp: Vec<u32>,
     obstacles: Vec<u32>,
+    /// What was last found in the way of each corner: it mostly still is (a corner of the outline sees the same hole
+    /// again and again while its neighbours are clipped).
+    blocker: Vec<u32>,
     grid: Grid,
 }
 
@@ -107,6 +110,8 @@ pub fn clip(
     if gridded {
         s.grid.fill(&face, &s.obstacles);
     }
+    s.blocker.clear();
+    s.blocker.resize(n as usize, NONE);
     s.queue.clear();
     s.queue.extend((0..n).map(|i| (i, 0)));
     let (mut left, mut idle) = (n, false);
@@ -130,9 +135,16 @@ pub fn clip(
         let low = [a[0].min(b[0]).min(d[0]), a[1].min(b[1]).min(d[1])];
         let high = [a[0].max(b[0]).max(d[0]), a[1].max(b[1]).max(d[1])];
         let blocked = |z: u32| s.obstacle[z as usize] && face.blocks(z, t, [low, high]);
-        let ear =
-            if gridded { !s.grid.any([a, b, d], low, high, blocked) } else { !s.obstacles.iter().any(|&z| blocked(z)) };
-        if !ear {
+        if s.blocker[at] != NONE && blocked(s.blocker[at]) {
+            continue;
+        }
+        let found = if gridded {
+            s.grid.find([a, b, d], low, high, blocked)
+        } else {
+            s.obstacles.iter().copied().find(|&z| blocked(z))
+        };
+        if let Some(z) = found {
+            s.blocker[at] = z;
             continue;
         }
         out.push(t.map(|i| polygon[i as usize]));
@@ -213,8 +225,8 @@ impl Grid {
         self.place(p[1], 1) * self.columns + self.place(p[0], 0)
     }
 
-    /// Whether any item near the triangle satisfies `blocked`.
-    fn any(&self, t: [[f64; 2]; 3], low: [f64; 2], high: [f64; 2], blocked: impl Fn(u32) -> bool) -> bool {
+    /// An item near the triangle that satisfies `blocked`.
+    fn find(&self, t: [[f64; 2]; 3], low: [f64; 2], high: [f64; 2], blocked: impl Fn(u32) -> bool) -> Option<u32> {
         let (first, last) = (self.place(low[1], 1), self.place(high[1], 1));
         let (left, right) = (self.place(low[0], 0), self.place(high[0], 0));
         for row in first..=last {
@@ -258,10 +270,10 @@ impl Grid {
             }
             let r =
                 self.offsets[row * self.columns + from] as usize..self.offsets[row * self.columns + to + 1] as usize;
-            if self.items[r].iter().any(|&z| blocked(z)) {
-                return true;
+            if let Some(&z) = self.items[r].iter().find(|&&z| blocked(z)) {
+                return Some(z);
             }
         }
-        false
+        None
     }
 }

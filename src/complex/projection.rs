@@ -3,12 +3,12 @@
 //!
 //! Decisions are exact. The filter reads the correctly rounded coordinates of the complex, each of which is off by
 //! at most half an ulp, so its bound covers the rounding of the points as well as that of the arithmetic; what it
-//! cannot certify goes to the kernel with the symbolic points. Order along an axis needs no bound at all: correct
+//! cannot certify is asked of the incidences (straight angles along a cut), then of the kernel with the symbolic points. Order along an axis needs no bound at all: correct
 //! rounding is monotone, so different rounded coordinates are in the order of the exact ones.
 //! Cost: a few nanoseconds where the filter decides.
 
-use super::data::{Complex, SupportId};
-use crate::base::{FaceId, VertexId};
+use super::data::{Complex, Origin, SupportId};
+use crate::base::{FaceId, PlaneId, VertexId};
 use crate::exact::{self, Point, Sign};
 use std::cmp::Ordering;
 
@@ -17,13 +17,15 @@ use std::cmp::Ordering;
 pub struct Projection {
     pub ax: usize,
     pub ay: usize,
+    /// The plane that the face lies on, `NONE` if none.
+    plane: PlaneId,
 }
 
 impl Projection {
     /// Along `axis`, with the normal's component there positive or negative.
-    fn along(axis: usize, positive: bool) -> Self {
+    fn along(axis: usize, positive: bool, plane: PlaneId) -> Self {
         let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
-        if positive { Self { ax: u, ay: v } } else { Self { ax: v, ay: u } }
+        if positive { Self { ax: u, ay: v, plane } } else { Self { ax: v, ay: u, plane } }
     }
 }
 
@@ -39,6 +41,7 @@ pub fn projection(c: &Complex, f: FaceId) -> Projection {
             [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
         }
     };
+    let plane = c.face_plane[f.at()];
     let mut axes = [0, 1, 2];
     // Not a number sorts as zero; the order of three axes by a total order of magnitudes.
     let size = |i: usize| if n[i].is_nan() { 0.0 } else { n[i].abs() };
@@ -60,13 +63,13 @@ pub fn projection(c: &Complex, f: FaceId) -> Projection {
             }
         };
         match sign {
-            Sign::Positive => return Projection::along(axis, true),
-            Sign::Negative => return Projection::along(axis, false),
+            Sign::Positive => return Projection::along(axis, true, plane),
+            Sign::Negative => return Projection::along(axis, false, plane),
             Sign::Zero => {}
         }
     }
     // A support has a normal; a degenerate one was refused where the input came in.
-    Projection::along(2, true)
+    Projection::along(2, true, plane)
 }
 
 /// The turn a → b → d as seen in the projection: positive is to the left.
@@ -97,15 +100,43 @@ pub fn turn(c: &Complex, pr: Projection, a: VertexId, b: VertexId, d: VertexId) 
     if det < -bound {
         return Sign::Negative;
     }
+    if collinear(c, pr, a, b, d) {
+        return Sign::Zero;
+    }
     exact::turn_projected(&c.point(a), &c.point(b), &c.point(d), pr.ax, pr.ay)
+}
+
+/// Whether incidences alone put three vertices of a face on one line: on a plane other than the face's (the face lies
+/// in two different planes there), or on one mesh edge. Straight angles nearly always are of this kind.
+fn collinear(c: &Complex, pr: Projection, a: VertexId, b: VertexId, d: VertexId) -> bool {
+    let (p, q, r) = (c.vertex_planes.row(a), c.vertex_planes.row(b), c.vertex_planes.row(d));
+    if q.iter().any(|x| *x != pr.plane && p.contains(x) && r.contains(x)) {
+        return true;
+    }
+    let origins = [a, b, d].map(|v| c.origins[v.at()]);
+    let edge = origins.iter().find_map(|o| if let Origin::Edge(e, _) = o { Some(*e) } else { None });
+    edge.is_some_and(|e| {
+        origins.iter().all(|o| match o {
+            Origin::Mesh(v) => c.mesh.edges[e.at()].contains(v),
+            Origin::Edge(other, _) => *other == e,
+            _ => false,
+        })
+    })
 }
 
 /// Order of two vertices along one axis, exactly.
 pub fn compare_axis(c: &Complex, a: VertexId, b: VertexId, axis: usize) -> Ordering {
-    if a == b {
+    let (x, y) = (c.coords[a.at()][axis], c.coords[b.at()][axis]);
+    if a == b || x == y && level(c, a, b, axis) {
         return Ordering::Equal;
     }
-    exact::compare_rounded(c.coords[a.at()][axis], c.coords[b.at()][axis], || c.point(a), || c.point(b), axis)
+    exact::compare_rounded(x, y, || c.point(a), || c.point(b), axis)
+}
+
+/// Whether two vertices are on one plane across `axis`.
+fn level(c: &Complex, a: VertexId, b: VertexId, axis: usize) -> bool {
+    let across = |p: &PlaneId| (0..3).all(|i| i == axis || c.planes[p.at()].n[i] == 0.0);
+    c.vertex_planes.row(a).iter().any(|p| across(p) && c.vertex_planes.row(b).contains(p))
 }
 
 /// Lexicographic order in the projection. Two vertices of one face are equal only if they are the same.
