@@ -75,6 +75,12 @@ fn follow(c: &Complex, anchor: &Anchor, located: &Located) -> Result<Option<Half
     let mut first: Option<(Rational, KnifeId)> = None;
     let mut tied = false;
     for k in (0..knives.len()).map(KnifeId::of) {
+        // Where no corner of either triangle is on the other side, neither are the points in them: nearly all planes.
+        let corners = [anchor.from, anchor.hit].into_iter().flat_map(|t| mesh.triangles[t.at()]);
+        let mut sides = corners.map(|v| located.all.surface.side(k, v)).filter(|&s| s != Sign::Zero);
+        if sides.next().is_some_and(|first| sides.all(|s| s == first)) {
+            continue;
+        }
         let plane = knives.plane(k);
         let (from, to) = (value(plane, &start), value(plane, &end));
         match (sign(&from), sign(&to)) {
@@ -163,8 +169,15 @@ fn ray_end(mesh: &TriMesh, start: &[Rational; 3], anchor: &Anchor) -> [Rational;
 /// The face of a triangle in which a point of it lies that is on no chord.
 fn sub_face(c: &Complex, t: TriangleId, x: &[Rational; 3], located: &Located) -> Result<FaceId> {
     let surface = located.all.surface;
-    let first = c.face_support.partition_point(|s| matches!(s, SupportId::Triangle(_)));
-    let faces = (0..first).filter(|&f| c.face_support[f] == SupportId::Triangle(t)).map(FaceId::of);
+    // Uncut triangles come first, then the faces of cut ones, both by triangle.
+    let uncut = surface.mesh.triangles.len() - surface.sub.cut.len();
+    let of_triangles = uncut + surface.sub.faces.len();
+    let run = |range: std::ops::Range<usize>| {
+        let triangle = |f: &SupportId| matches!(*f, SupportId::Triangle(o) if o < t);
+        let first = range.start + c.face_support[range.clone()].partition_point(triangle);
+        (first..range.end).take_while(|&f| c.face_support[f] == SupportId::Triangle(t))
+    };
+    let faces = run(0..uncut).chain(run(uncut..of_triangles)).map(FaceId::of);
     let chords =
         surface.sub.chord_triangle.partition_point(|&o| o < t)..surface.sub.chord_triangle.partition_point(|&o| o <= t);
     let wanted: Vec<(KnifeId, Sign)> = chords
