@@ -6,14 +6,14 @@
 
 inline int expect_failures = 0;
 
-#define EXPECT(condition, ...)                                       \
-  do {                                                               \
-    if (!(condition)) {                                              \
-      std::printf("%s:%d: %s: ", __FILE__, __LINE__, #condition);    \
-      std::printf(__VA_ARGS__);                                      \
-      std::printf("\n");                                             \
-      ++expect_failures;                                             \
-    }                                                                \
-  } while (false)
+#define EXPECT(condition, ...)                                                                                         \
+    do {                                                                                                               \
+        if (!(condition)) {                                                                                            \
+            std::printf("%s:%d: %s: ", __FILE__, __LINE__, #condition);                                                \
+            std::printf(__VA_ARGS__);                                                                                  \
+            std::printf("\n");                                                                                         \
+            ++expect_failures;                                                                                         \
+        }                                                                                                              \
+    } while (false)
 
 #endif
