@@ -77,7 +77,7 @@ fn any_input_ends_with_a_status() {
     unsafe {
         let mut context = null_mut();
         assert_eq!(lap_context_new(&mut context), LAP_OK);
-        for round in 0..6000 {
+        for round in 0..30000 {
             let (xyz, indices) = soup(&mut r);
             let (n, m) = ((xyz.len() / 3) as i64, (indices.len() / 3) as i64);
             let checked = r.below(2) == 0;

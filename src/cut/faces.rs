@@ -172,6 +172,12 @@ fn faces_of(
             hole_bottom(all, surface, section, row, axes)
         };
         match lowest {
+            None if row.len() < 3 => {
+                return Err(Error::inconsistent(format!(
+                    "the section of plane {} has a face without area: the surface intersects itself",
+                    surface.knives.ids[section.knife.at()].0
+                )));
+            }
             None => {
                 face_of_loop[l] = outer_count;
                 outer_count += 1;
