@@ -1,7 +1,7 @@
 //! Random input, good and bad, through the C functions: every call ends with a status of the documented ones and a handle
 //! exactly on success; what is made passes its own check and adds up. Deterministic.
 
-use lapidary::capi::{complex::*, context::*, cut::*, derived::*, mesh::*, status::*};
+use lapidary::capi::{context::*, cut::*, derived::*, mesh::*, status::*};
 use std::ptr::{null, null_mut};
 
 /// xorshift64*
