@@ -9,7 +9,7 @@
 
 use super::adjacency::{adjacency, corner_faces, corner_nexts};
 use super::data::{Complex, HalfFace, Origin, SupportId};
-use super::euler::euler_with;
+use super::euler::{euler_with, solid_euler};
 use super::exact_values;
 use crate::base::{CellId, Csr, EdgeId, FaceId, TriangleId, VertexId};
 use crate::exact::residue::point_residues;
@@ -374,6 +374,6 @@ pub fn check_exact(c: &Complex) -> Check {
     (0..c.cell_count()).into_par_iter().map(CellId::of).try_for_each(|k| {
         ensure(exact_values::cell_volume(c, k) > 0, || format!("cell {}: its volume is not positive", k.0))
     })?;
-    let euler = euler_with(c, &adjacency(c)?);
-    ensure(euler == c.solid_euler, || format!("Euler characteristic {euler}, the solid's is {}", c.solid_euler))
+    let (euler, solid) = (euler_with(c, &adjacency(c)?), solid_euler(&c.mesh));
+    ensure(euler == solid, || format!("Euler characteristic {euler}, the solid's is {solid}"))
 }

@@ -88,8 +88,6 @@ pub struct Complex {
     pub shell_faces: Csr<HalfFace>,
     /// The input component that holds each cell's body.
     pub cell_component: Vec<ComponentId>,
-    /// Euler characteristic of the input solid, by the same expression as the output's.
-    pub solid_euler: i64,
 }
 
 impl Complex {

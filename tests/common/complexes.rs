@@ -3,7 +3,7 @@
 #![allow(dead_code)]
 
 use lapidary::base::{CellId, ComponentId, Csr, EdgeId, FaceId, PlaneId, Run, TriangleId, VertexId};
-use lapidary::complex::{Complex, HalfFace, Origin, SupportId, adjacency, solid_euler};
+use lapidary::complex::{Complex, HalfFace, Origin, SupportId, adjacency};
 use lapidary::exact::{self, Plane};
 use lapidary::mesh::{MeshInput, MeshOptions, TriMesh, build};
 use rug::Rational;
@@ -253,7 +253,6 @@ impl Builder {
             c.edges[e as usize] = [VertexId(a), VertexId(b)];
         }
         c.cell_component = vec![ComponentId(0); cells.len()];
-        c.solid_euler = solid_euler(&self.mesh);
         add_shells(&mut c);
         c
     }
