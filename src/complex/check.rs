@@ -374,7 +374,6 @@ pub fn check_exact(c: &Complex) -> Check {
     (0..c.cell_count()).into_par_iter().map(CellId::of).try_for_each(|k| {
         ensure(exact_values::cell_volume(c, k) > 0, || format!("cell {}: its volume is not positive", k.0))
     })?;
-    let euler = euler_with(c, &adjacency(c)?);
-    let solid = solid_euler(&c.mesh);
+    let (euler, solid) = (euler_with(c, &adjacency(c)?), solid_euler(&c.mesh));
     ensure(euler == solid, || format!("Euler characteristic {euler}, the solid's is {solid}"))
 }
