@@ -309,12 +309,10 @@ pub fn classify(mesh: &TriMesh, knives: &Knives) -> Classified {
     let mut edge_crossings = Csr::with_capacity(mesh.edges.len(), mesh.edges.len() / 4);
     let mut edges_on = Vec::new();
     for (e, &[a, b]) in mesh.edges.iter().enumerate() {
-        let (sa, sb) = (sides.slabs_of(a), sides.slabs_of(b));
-        if sa != sb || words != 0 {
-            each_crossing(knives, (sa, sides.masks_of(a)), (sb, sides.masks_of(b)), |knife, sign| {
-                edge_crossings.items.push(Crossing { knife, low_positive: sign == Sign::Positive });
-            });
-        }
+        let (from, to) = ((sides.slabs_of(a), sides.masks_of(a)), (sides.slabs_of(b), sides.masks_of(b)));
+        each_crossing(knives, from, to, |knife, sign| {
+            edge_crossings.items.push(Crossing { knife, low_positive: sign == Sign::Positive });
+        });
         edge_crossings.end_row();
         let (on_a, on_b) = (vertex_knives.row(a), vertex_knives.row(b));
         if !on_a.is_empty() && !on_b.is_empty() {
