@@ -9,6 +9,7 @@
 
 #include <lapidary.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdint>
@@ -219,12 +220,38 @@ Cells cells_of(lap_context *context, const lap_complex *complex)
     return cells;
 }
 
+void reverse(Mesh &mesh)
+{
+    for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) std::swap(mesh.triangles[i + 1], mesh.triangles[i + 2]);
+}
+
+/// Some files face inward as a whole. If that is all that is wrong with a mesh, it is reversed; anything else is left for
+/// the library to refuse.
+bool reverse_if_inward(lap_context *context, Mesh &mesh)
+{
+    auto status = [&] {
+        lap_mesh *made = nullptr;
+        const std::int32_t result =
+            lap_mesh_new(context, mesh.vertex_count(), mesh.coordinates.data(), mesh.triangle_count(),
+                         mesh.triangles.data(), nullptr, nullptr, &made);
+        lap_mesh_free(made);
+        return result;
+    };
+    std::int64_t count = 0;
+    const std::int32_t *kinds = nullptr;
+    if (status() != LAP_ERR_BAD_MESH) return false;
+    must(context, lap_context_last_defects(context, &count, &kinds, nullptr));
+    if (!std::all_of(kinds, kinds + count, [](std::int32_t kind) { return kind == LAP_DEFECT_WRONG_NESTING; })) return false;
+    reverse(mesh);
+    if (status() == LAP_OK) return true;
+    reverse(mesh);
+    return false;
+}
+
 int cut_mesh(const Options &options)
 {
     Mesh input = read_mesh(options.mesh);
-    if (options.flip)
-        for (std::size_t i = 0; i < input.triangles.size(); i += 3)
-            std::swap(input.triangles[i + 1], input.triangles[i + 2]);
+    if (options.flip) reverse(input);
     const Box box = bounding_box(input);
     std::vector<double> planes = grid_planes(box, options.grid);
     auto append = [&](const std::vector<double> &more) { planes.insert(planes.end(), more.begin(), more.end()); };
@@ -236,6 +263,8 @@ int cut_mesh(const Options &options)
     const Handle<lap_context> handle(made);
     lap_context *context = handle.get();
     must(context, lap_context_set_threads(context, static_cast<std::int32_t>(options.threads)));
+    if (!options.flip && reverse_if_inward(context, input))
+        std::cerr << options.mesh << " faces inward: all its triangles are reversed\n";
 
     Report report;
     report.mesh = options.mesh;
