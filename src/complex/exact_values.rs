@@ -200,10 +200,26 @@ pub fn mesh_volume_string(mesh: &TriMesh) -> String {
 
 /// The exact volume and centroid of a cell.
 pub fn cell_values(c: &Complex, cell: CellId) -> (Rational, Coordinates) {
-    // A cone from the origin over a face has its centroid at 3/4 of the face's.
-    let mut cones = Vec::new();
-    let mut moments: [Vec<Rational>; 3] = Default::default();
-    for h in c.cell_faces(cell) {
+    // A cone from the origin over a face has its centroid at 3/4 of the face's; over a triangle, at a quarter of its
+    // corners' sum, so whole triangles add up as integers here too.
+    let faces = c.cell_faces(cell);
+    let whole = || faces.iter().filter_map(|h| uncut(c, h.face()).map(|t| (*h, t)));
+    let exponent = lowest_exponent(whole().flat_map(|(_, t)| t.into_iter().flatten()));
+    let (mut sum, mut first) = (Integer::new(), [const { Integer::ZERO }; 3]);
+    for (h, t) in whole() {
+        let mut x = triangle_cone(&t, exponent);
+        if h.front() {
+            x = -x;
+        }
+        for (axis, m) in first.iter_mut().enumerate() {
+            let corners = t.iter().fold(Integer::new(), |s, p| s + scaled(p[axis], exponent));
+            *m += corners * &x;
+        }
+        sum += x;
+    }
+    let mut cones = vec![volume_of(sum, exponent) * 6];
+    let mut moments = first.map(|m| vec![Rational::from((m, 3)) << (4 * exponent)]);
+    for h in faces.iter().filter(|h| uncut(c, h.face()).is_none()) {
         let x = sign(*h, cone(c, h.face()));
         if x.is_zero() {
             continue;

@@ -158,8 +158,81 @@ fn first_independent(surface: &Surface, set: &[KnifeId]) -> [KnifeId; 3] {
     [set[0], set[1], third.unwrap_or(set[set.len() - 1])]
 }
 
+/// The two lowest knives in both of two rising sets.
+fn first_two_common(a: &[KnifeId], b: &[KnifeId]) -> Option<[KnifeId; 2]> {
+    let mut common = [KnifeId::default(); 2];
+    let (mut i, mut j, mut count) = (0, 0, 0);
+    while count < 2 {
+        match a.get(i)?.cmp(b.get(j)?) {
+            Ordering::Less => i += 1,
+            Ordering::Greater => j += 1,
+            Ordering::Equal => {
+                common[count] = a[i];
+                (i, j, count) = (i + 1, j + 1, count + 1);
+            }
+        }
+    }
+    Some(common)
+}
+
+/// Points of one section on four planes or more, found on its lines so far. What crosses at one point of one line crosses
+/// there on every other line through that point, so n planes through a point cost n² exact comparisons in all and not n³.
+#[derive(Default)]
+struct Gathered {
+    sets: Csr<KnifeId>,
+    names: Vec<[KnifeId; 3]>,
+    /// Per knife the last entry of `links` with it, per entry the point and the entry before.
+    last: Vec<u32>,
+    links: Vec<(u32, u32)>,
+    /// Per knife its point on the current line, `NO_POINT` if none is known.
+    label: Vec<u32>,
+    labelled: Vec<KnifeId>,
+}
+
+const NO_POINT: u32 = u32::MAX;
+
+impl Gathered {
+    fn start_section(&mut self, knife_count: usize) {
+        for &k in &self.sets.items {
+            self.last[k.at()] = NO_POINT;
+        }
+        self.last.resize(knife_count, NO_POINT);
+        self.label.resize(knife_count, NO_POINT);
+        self.sets.items.clear();
+        self.sets.offsets.truncate(1);
+        self.names.clear();
+        self.links.clear();
+    }
+
+    fn add(&mut self, set: &[KnifeId], name: [KnifeId; 3]) {
+        for k in set {
+            self.links.push((self.names.len() as u32, self.last[k.at()]));
+            self.last[k.at()] = self.links.len() as u32 - 1;
+        }
+        self.sets.push_row(set);
+        self.names.push(name);
+    }
+
+    /// Labels what is known to cross the section's line with plane q.
+    fn start_line(&mut self, q: KnifeId) {
+        for k in self.labelled.drain(..) {
+            self.label[k.at()] = NO_POINT;
+        }
+        let mut at = self.last[q.at()];
+        while at != NO_POINT {
+            let (point, before) = self.links[at as usize];
+            for &k in self.sets.row(point as usize) {
+                self.label[k.at()] = point;
+                self.labelled.push(k);
+            }
+            at = before;
+        }
+    }
+}
+
 #[derive(Default)]
 struct Scratch {
+    gathered: Gathered,
     map: LocalMap,
     shared: Vec<(KnifeId, VertexId)>,
     line: Vec<VertexId>,
@@ -176,6 +249,8 @@ struct CrossingKnife {
     at: f64,
     bound: f64,
     from_positive: bool,
+    /// Its point among those gathered, `NO_POINT` if none: one label, one point.
+    label: u32,
 }
 
 impl Scratch {
@@ -189,6 +264,7 @@ impl Scratch {
         self.shared.clear();
         self.shared.extend_from_slice(shared);
         self.shared.sort_unstable();
+        self.gathered.start_section(surface.knives.len());
         let mut at = 0;
         while at < self.shared.len() {
             let q = self.shared[at].0;
@@ -199,11 +275,13 @@ impl Scratch {
             if self.line.len() < 2 {
                 continue;
             }
-            self.pencil.clear();
-            each_common(surface.set(self.line[0]), surface.set(self.line[1]), |k| self.pencil.push(k));
-            if self.pencil.len() < 2 || (self.pencil[0], self.pencil[1]) != (section.knife, q) {
+            let (a, b) = (surface.set(self.line[0]), surface.set(self.line[1]));
+            // Most pairs of a large pencil are not its lowest: that must show after two steps, not after all its planes.
+            if first_two_common(a, b) != Some([section.knife, q]) {
                 continue;
             }
+            self.pencil.clear();
+            each_common(a, b, |k| self.pencil.push(k));
             self.line(surface, section, q, out)?;
         }
         Ok(())
@@ -216,6 +294,7 @@ impl Scratch {
             if rising { order } else { order.reverse() }
         };
         self.line.sort_by(order);
+        self.gathered.start_line(q);
         let first = out.ends.len();
         let line = std::mem::take(&mut self.line);
         for pair in line.windows(2) {
@@ -249,9 +328,10 @@ impl Scratch {
         surface.place(ends[0], from);
         surface.place(ends[1], to);
         self.crossing.clear();
-        let crossing = &mut self.crossing;
+        let (crossing, labels) = (&mut self.crossing, &self.gathered.label);
         each_crossing(surface.knives, (&from.slabs, &from.masks), (&to.slabs, &to.masks), |knife, sign| {
-            crossing.push(CrossingKnife { knife, at: 0.0, bound: 0.0, from_positive: sign == Sign::Positive });
+            let label = labels[knife.at()];
+            crossing.push(CrossingKnife { knife, at: 0.0, bound: 0.0, from_positive: sign == Sign::Positive, label });
         });
         if self.crossing.len() > 1 {
             self.order_crossings(surface, p, q, ends);
@@ -272,7 +352,12 @@ impl Scratch {
             self.set.sort_unstable();
             let name = match *self.set {
                 [a, b, c] => [a, b, c],
-                _ => first_independent(surface, &self.set),
+                _ if leader.label != NO_POINT => self.gathered.names[leader.label as usize],
+                _ => {
+                    let name = first_independent(surface, &self.set);
+                    self.gathered.add(&self.set, name);
+                    name
+                }
             };
             out.names.push(name);
             out.sets.push_row(&self.set);
@@ -308,6 +393,10 @@ fn crossing_fraction(surface: &Surface, k: KnifeId, ends: [VertexId; 2]) -> (f64
 
 fn compare_crossings(surface: &Surface, p: KnifeId, q: KnifeId, a: &CrossingKnife, b: &CrossingKnife) -> Ordering {
     let knives = surface.knives;
+    if a.label == b.label && a.label != NO_POINT {
+        counters::count_topology(counters::Predicate::PointOrder);
+        return Ordering::Equal;
+    }
     if knives.family[a.knife.at()] == knives.family[b.knife.at()] {
         counters::count_topology(counters::Predicate::PointOrder);
         // Rising ranks where the segment starts below the family.
