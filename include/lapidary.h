@@ -737,7 +737,7 @@ int32_t lap_complex_cell_side(const struct lap_complex *complex,
 
  Outputs (each may be NULL; borrowed as the complex): count: the number of cells; volumes: count; centroids: 3 × count;
  flags: count, nonzero where a moment is beyond the range of double (it is then infinite, or 0). Every number is
- within 4 units in the last place of the exact one.
+ the double nearest to the exact one.
 
  Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_INTERNAL. Threads: any. Cost: one walk over all faces at
  the first call, then none.
@@ -753,7 +753,7 @@ int32_t lap_complex_cell_moments(const struct lap_complex *complex,
 
  Outputs (each may be NULL; borrowed as the complex): count: the number of faces; area_vectors: 3 × count; centroids: 3 ×
  count; flags: count, nonzero where a moment is beyond the range of double (it is then infinite, or 0). Every number
- is within 4 units in the last place of the exact one.
+ is the double nearest to the exact one.
 
  Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_INTERNAL. Threads: any. Cost: one walk over all faces at
  the first call, then none.

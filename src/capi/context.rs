@@ -187,47 +187,48 @@ impl State {
     }
 }
 
+/// Threads that are waited for when dropped.
+struct Joined(Vec<JoinHandle<()>>);
+
+impl Drop for Joined {
+    fn drop(&mut self) {
+        for thread in self.0.drain(..) {
+            // A worker that panicked has nothing more to say.
+            let _ = thread.join();
+        }
+    }
+}
+
 /// A pool whose threads have the clean floating-point environment and panic silently. They are gone when it is dropped:
 /// rayon alone lets them run out by themselves, which a host that unloads the library would not survive.
 pub struct Pool {
-    pool: Option<ThreadPool>,
-    threads: Vec<JoinHandle<()>>,
+    // Fields are dropped in this order: the pool tells its threads to end, then they are waited for.
+    pool: ThreadPool,
+    _threads: Joined,
 }
 
 impl Pool {
     pub fn new(threads: usize) -> Result<Self, Error> {
-        let mut pool = Self { pool: None, threads: Vec::with_capacity(threads) };
-        let spawned = &mut pool.threads;
-        let built = ThreadPoolBuilder::new()
+        let mut spawned = Joined(Vec::with_capacity(threads));
+        let pool = ThreadPoolBuilder::new()
             .num_threads(threads)
             .thread_name(|i| format!("lapidary-{i}"))
             .start_handler(|_| adopt_worker())
             .spawn_handler(|worker| {
                 let name = worker.name().unwrap_or_default().to_string();
-                spawned.push(std::thread::Builder::new().name(name).spawn(|| worker.run())?);
+                spawned.0.push(std::thread::Builder::new().name(name).spawn(|| worker.run())?);
                 Ok(())
             })
-            .build();
-        // After a failure, dropping the half-made pool waits for those threads that did start.
-        pool.pool = Some(built.map_err(|e| Error::new(Status::OutOfMemory, format!("no threads to be had: {e}")))?);
-        Ok(pool)
+            .build()
+            .map_err(|e| Error::new(Status::OutOfMemory, format!("no threads to be had: {e}")))?;
+        Ok(Self { pool, _threads: spawned })
     }
 }
 
 impl std::ops::Deref for Pool {
     type Target = ThreadPool;
     fn deref(&self) -> &ThreadPool {
-        self.pool.as_ref().expect("a pool has its threads until it is dropped")
-    }
-}
-
-impl Drop for Pool {
-    fn drop(&mut self) {
-        self.pool = None;
-        for thread in self.threads.drain(..) {
-            // A worker that panicked has nothing more to say.
-            let _ = thread.join();
-        }
+        &self.pool
     }
 }
 
