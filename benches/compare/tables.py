@@ -1,0 +1,91 @@
+"""Prints the results that scripts/bench left in a folder as Markdown: tables.py FOLDER.
+
+Every ratio is a peer's time divided by the library's on one thread, both from one run of bench_cut: 40 x means that the peer
+takes 40 times as long.
+"""
+import json
+import pathlib
+import sys
+
+PEERS = {"pmp-epick": "PMP, rounded", "pmp-epeck": "PMP, exact", "nef": "Nef, exact"}
+
+
+def read(folder, table):
+    return [json.loads(path.read_text()) for path in sorted(folder.glob(table + "-*.json"))]
+
+
+def results(report):
+    return {one["name"]: one for one in report["results"]}
+
+
+def ms(seconds):
+    digits = 0 if seconds >= 0.1 else 1 if seconds >= 0.01 else 2
+    return f"{seconds * 1e3:.{digits}f}"
+
+
+def row(*cells):
+    print("| " + " | ".join(str(cell) for cell in cells) + " |")
+
+
+def head(left, right):
+    row(*left, *right)
+    row(*["---"] * len(left), *["---:"] * len(right))
+
+
+def ours(one, key="seconds"):
+    return f"failed: {one['error']}" if "error" in one else ms(one[key])
+
+
+def peer(one, base):
+    """Time and ratio; what is wrong, if anything is."""
+    if one is None:
+        return ""
+    if "error" in one:
+        return f"> {one['limit_seconds']:.0f} s" if "limit_seconds" in one else f"failed: {one['error']}"
+    text = ms(one["seconds"])
+    if "error" not in base:
+        ratio = one["seconds"] / base["seconds"]
+        text += f" ({ratio:.0f} x)" if ratio >= 10 else f" ({ratio:.1f} x)"
+        if one["cells"] != base["cells"]:
+            text += f", {one['cells']} cells"
+        elif abs(one["volume"] - base["volume"]) > 1e-9 * abs(base["volume"]):
+            text += f", volume {one['volume']:.12g} instead of {base['volume']:.12g}"
+    return text
+
+
+def memory(one):
+    return "" if one is None or "error" in one else f"{one['memory_bytes'] / 2**20:.0f}"
+
+
+def compare(reports):
+    print("Times in ms. In brackets how many times as long as Lapidary on one thread; where a peer's cells differ, its number.\n")
+    head(["mesh", "planes"], ["triangles", "cells", "Lapidary", "with moments", *PEERS.values()])
+    for report in reports:
+        by_name = results(report)
+        base = by_name["lapidary-1"]
+        row(report["mesh"], report["plane_set"], report["triangles"], base.get("cells", ""), ours(base),
+            ours(base, "seconds_with_moments"), *(peer(by_name.get(name), base) for name in PEERS))
+    print("\nMemory in MiB that the first run takes beyond the input arrays.\n")
+    head(["mesh", "planes"], ["Lapidary", *PEERS.values()])
+    for report in reports:
+        by_name = results(report)
+        row(report["mesh"], report["plane_set"], *(memory(by_name.get(name)) for name in ["lapidary-1", *PEERS]))
+
+
+def growth(reports, what):
+    print(f"\nLapidary alone, as {what} grow; times in ms.\n")
+    head(["mesh", "planes"], ["triangles", "cells", "1 thread", "with moments", "2 threads", "with moments"])
+    for report in reports:
+        one, two = (results(report)[name] for name in ("lapidary-1", "lapidary-2"))
+        times = [ours(r, key) for r in (one, two) for key in ("seconds", "seconds_with_moments")]
+        row(report["mesh"], report["plane_set"], report["triangles"], one.get("cells", ""), *times)
+
+
+def main():
+    folder = pathlib.Path(sys.argv[1])
+    compare(read(folder, "compare"))
+    growth(read(folder, "planes"), "planes")
+    growth(read(folder, "triangles"), "triangles")
+
+
+main()
