@@ -115,7 +115,7 @@ pub fn adjacency(c: &Complex) -> Result<Adjacency, String> {
             }
         }
         if ambiguous {
-            wedge_pairs(c, e, &row, &mut scratch, |i, a, j, b| {
+            wedge_pairs(c, e, &row, None, &mut scratch, |i, a, j, b| {
                 let of = |i: u32, h: HalfFace| HalfCorner::new(row[i as usize].corner as usize, h.front());
                 mates[of(i, a).at()] = of(j, b);
                 mates[of(j, b).at()] = of(i, a);

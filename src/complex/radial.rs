@@ -13,7 +13,7 @@
 
 use super::projection::compare_axis;
 use super::{Complex, HalfFace, SupportId};
-use crate::base::{EdgeId, Error, FaceId, Result};
+use crate::base::{EdgeId, Error, FaceId, PlaneId, Result};
 use crate::exact::{self, Direction, Sign, counters, sort_cyclic};
 use std::cmp::Ordering;
 
@@ -97,11 +97,13 @@ fn on_surface(c: &Complex, u: FaceUse) -> bool {
     matches!(c.face_support[u.face.at()], SupportId::Triangle(_))
 }
 
-/// Calls `pair(i, hi, j, hj)` for each wedge around an edge that is inside: the uses `i` and `j` that bound it and their half-faces.
+/// Calls `pair(i, hi, j, hj)` for each wedge around an edge that is inside: the uses `i` and `j` that bound it and their
+/// half-faces. `along` may say that the edge is known to run along n_P × n_Q of two planes P, Q.
 pub fn wedge_pairs(
     c: &Complex,
     edge: EdgeId,
     uses: &[FaceUse],
+    along: Option<[PlaneId; 2]>,
     scratch: &mut Vec<u32>,
     mut pair: impl FnMut(u32, HalfFace, u32, HalfFace),
 ) -> Result<()> {
@@ -127,17 +129,20 @@ pub fn wedge_pairs(
             return Ok(());
         }
     }
-    let Some((axis, along)) = edge_axis(c, edge) else { return Err(contradiction(edge)) };
-    let mut unit = [0.0; 3];
-    unit[axis] = 1.0;
-    let unit = Direction::Plane(unit);
-    if let Some(order) = crossing_of_two_planes(c, uses, &unit, along) {
+    if let Some(order) = crossing_of_two_planes(c, uses, along) {
+        counters::count_topology(counters::Predicate::RadialOrder);
         for (k, &i) in order.iter().enumerate() {
             let j = order[(k + 1) % 4];
             pair(i, uses[i as usize].far(), j, uses[j as usize].near());
         }
         return Ok(());
     }
+    // The signs computed here are counted by tier under `Direction`.
+    counters::count(counters::Predicate::RadialOrder, counters::Tier::Filter);
+    let Some((axis, along)) = edge_axis(c, edge) else { return Err(contradiction(edge)) };
+    let mut unit = [0.0; 3];
+    unit[axis] = 1.0;
+    let unit = Direction::Plane(unit);
     scratch.clear();
     scratch.extend(0..uses.len() as u32);
     let normal = |i: u32| face_normal(c, uses[i as usize].face);
@@ -175,27 +180,18 @@ pub fn wedge_pairs(
     Ok(())
 }
 
-/// The cycle around a plain line inside, where two planes cross: one determinant tells the order of all four faces.
-fn crossing_of_two_planes(c: &Complex, uses: &[FaceUse], unit: &Direction, along: bool) -> Option<[u32; 4]> {
-    if uses.len() != 4 || uses.iter().any(|&u| on_surface(c, u)) {
+/// The cycle around a plain line inside, where two planes cross: the line's direction tells the order of all four faces.
+fn crossing_of_two_planes(c: &Complex, uses: &[FaceUse], along: Option<[PlaneId; 2]>) -> Option<[u32; 4]> {
+    let [p, q] = along?;
+    if uses.len() != 4 {
         return None;
     }
-    let support = |i: u32| c.face_support[uses[i as usize].face.at()];
-    let forward = |i: u32| uses[i as usize].forward;
-    let back = (1..4).find(|&i| support(i) == support(0))?;
-    let mut rest = (1..4).filter(|&i| i != back);
-    let (x, y) = (rest.next()?, rest.next()?);
-    if support(x) != support(y) || support(x) == support(0) || forward(0) == forward(back) || forward(x) == forward(y) {
-        return None;
-    }
-    let normal = |i: u32| face_normal(c, uses[i as usize].face);
-    let sign = exact::determinant(&normal(0), &normal(x), unit);
-    let turn = if (forward(0) == forward(x)) == along { sign } else { -sign };
-    match turn {
-        Sign::Positive => Some([0, x, back, y]),
-        Sign::Negative => Some([0, y, back, x]),
-        Sign::Zero => None,
-    }
+    let find = |plane: PlaneId, forward: bool| {
+        let is = |u: &FaceUse| u.forward == forward && c.face_support[u.face.at()] == SupportId::Plane(plane);
+        uses.iter().position(is).map(|i| i as u32)
+    };
+    // Forward faces lie in N × w; w = n_P × n_Q turns P's to Q's counter-clockwise.
+    Some([find(p, true)?, find(q, true)?, find(p, false)?, find(q, false)?])
 }
 
 fn contradiction(edge: EdgeId) -> Error {

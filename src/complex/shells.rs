@@ -8,7 +8,7 @@
 
 use super::radial::{EdgeUses, wedge_pairs};
 use super::{Complex, HalfFace, SupportId};
-use crate::base::{CellId, Csr, EdgeId, Error, FaceId, Result, ShellId, UnionFind};
+use crate::base::{CellId, Csr, EdgeId, Error, FaceId, PlaneId, Result, ShellId, UnionFind};
 use crate::exact::counters;
 
 /// The shell of each half-face (`NONE` for the front of a surface face), and the lowest half-face of each shell.
@@ -17,7 +17,8 @@ pub struct Shells {
     pub lowest: Vec<HalfFace>,
 }
 
-pub fn find_shells(c: &Complex) -> Result<Shells> {
+/// `along(edge)`, asked at most once per edge, by rising id, may name two planes P, Q along whose n_P × n_Q the edge runs.
+pub fn find_shells(c: &Complex, mut along: impl FnMut(EdgeId) -> Option<[PlaneId; 2]>) -> Result<Shells> {
     let uses = EdgeUses::new(c);
     let mut classes = UnionFind::new(2 * c.face_count());
     let (mut row, mut scratch, mut simple) = (Vec::new(), Vec::new(), 0);
@@ -28,7 +29,7 @@ pub fn find_shells(c: &Complex) -> Result<Shells> {
             continue;
         }
         uses.row(c, edge, &mut row);
-        wedge_pairs(c, edge, &row, &mut scratch, |_, a, _, b| {
+        wedge_pairs(c, edge, &row, along(edge), &mut scratch, |_, a, _, b| {
             classes.union(a.at(), b.at());
         })?;
     }

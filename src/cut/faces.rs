@@ -110,11 +110,11 @@ pub fn section_faces(
         .enumerate()
         .map_init(LocalMap::default, |map, (k, section)| {
             for &(l, knife) in lines_of.row(k) {
-                let carrier = Carrier::Line { other: knife.other, against: knife.against };
                 for s in lines.segments[l as usize]..lines.segments[l as usize + 1] {
                     let points = lines.points.range(s as usize);
                     let first = first_line_edge + s + points.start as u32;
                     let [from, to] = lines.ends[s as usize];
+                    let carrier = Carrier::Line { other: knife.other, against: knife.against, ends: [from, to] };
                     let inner = &lines.points.items[points];
                     let mut previous = from;
                     for (i, &v) in inner.iter().chain(std::iter::once(&to)).enumerate() {
@@ -169,6 +169,7 @@ fn faces_of(
             counters::count_topology(counters::Predicate::LoopOrientation);
             None
         } else {
+            counters::count(counters::Predicate::LoopOrientation, counters::Tier::Filter);
             hole_bottom(all, surface, section, row, axes)
         };
         match lowest {

@@ -16,7 +16,7 @@
 use super::classify::{KnifeId, Place, each_common, each_crossing};
 use super::sections::{LocalMap, PlaneContents, Section, surface_pieces};
 use super::surface::Surface;
-use crate::base::{Csr, Error, PlaneId, Result, VertexId};
+use crate::base::{Csr, EdgeId, Error, PlaneId, Result, VertexId};
 use crate::exact::{self, Direction, Point, Sign, counters};
 use rayon::prelude::*;
 use std::cmp::Ordering;
@@ -83,6 +83,29 @@ fn pairs_by_knife(surface: &Surface) -> Csr<(KnifeId, VertexId)> {
 }
 
 impl Lines {
+    /// For edges of lines, by rising id: the two planes along whose n_P × n_Q each runs. Line pieces have ids from
+    /// `first_edge` on.
+    pub fn directions<'a>(
+        &'a self,
+        surface: &'a Surface,
+        first_edge: u32,
+    ) -> impl FnMut(EdgeId) -> Option<[PlaneId; 2]> + 'a {
+        let mut line = 0;
+        // A segment with n points has n + 1 pieces.
+        let end =
+            move |l: usize| first_edge + self.segments[l + 1] + self.points.offsets[self.segments[l + 1] as usize];
+        move |edge| {
+            if edge.0 < first_edge {
+                return None;
+            }
+            while edge.0 >= end(line) {
+                line += 1;
+            }
+            let row = self.knives.row(line);
+            Some([row[0].knife, row[1].knife].map(|k| surface.knives.ids[k.at()]))
+        }
+    }
+
     fn append(&mut self, other: Lines) {
         let (segments, points) = (self.ends.len() as u32, self.names.len() as u32);
         let knives = self.knives.items.len() as u32;

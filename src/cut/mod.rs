@@ -98,9 +98,9 @@ pub fn cut(mesh: &Arc<TriMesh>, planes: &[Plane], _options: &CutOptions, run: &m
     limit(complex.corner_vertices.len())?;
     (complex.origins, complex.coords) = (origins, coords);
     run.stage("cells", 0.85)?;
-    let found = shells::find_shells(&complex)?;
-    run.stage("voids", 0.95)?;
     let surface = ground.with(&complex.origins[..surface_count], &complex.coords[..surface_count]);
+    let found = shells::find_shells(&complex, lines.directions(&surface, first_line_edge))?;
+    run.stage("voids", 0.95)?;
     let all = faces::AllVertices { surface: &surface, origins: &complex.origins, coords: &complex.coords };
     let located = voids::Located { all: &all, sections: &graphs, faces: &section_faces, first_face: &first_face };
     let hosts = voids::hosts(&complex, &found, &located)?;

@@ -27,8 +27,9 @@ pub enum Carrier {
     Chord(TriangleId),
     /// A mesh edge in the plane: the piece runs from its lower vertex to its higher.
     MeshEdge(EdgeId),
-    /// A line P∩Q: the piece runs along +(n_P × n_Q), or against it.
-    Line { other: KnifeId, against: bool },
+    /// A line P∩Q: the piece runs along +(n_P × n_Q), or against it; `ends` are those of the whole inside segment, on the
+    /// surface: a plane that crosses the segment has its ends on its two sides.
+    Line { other: KnifeId, against: bool, ends: [VertexId; 2] },
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -121,27 +122,31 @@ impl Section {
             row.clear();
             row.extend_from_slice(&self.star.items[range.clone()]);
             if let Some(order) = self.crossing_of_two_lines(surface, &row) {
+                counters::count_topology(counters::Predicate::CyclicOrder);
                 self.star.items[range].copy_from_slice(&order);
                 continue;
             }
+            let mut computed = false;
             // A line first: against a line, the order of surface pieces is the side of a plane, mostly known.
             if let Some(at) =
                 row.iter().position(|&h| matches!(self.pieces[h as usize / 2].carrier, Carrier::Line { .. }))
             {
                 row.swap(0, at);
             }
-            sort_cyclic(&mut row, |a, b| self.turn(surface, *a, *b), |a, b| self.opposite(*a, *b));
+            let turn = |a: &u32, b: &u32| {
+                computed |= self.line(*a).is_none() && self.line(*b).is_none();
+                self.turn(surface, *a, *b)
+            };
+            sort_cyclic(&mut row, turn, |a, b| self.opposite(*a, *b));
+            count_order(computed);
             self.star.items[range].copy_from_slice(&row);
         }
     }
 
-    /// The star of a plain point inside, where two lines cross: one determinant tells the order of all four half-edges.
+    /// The star of a plain point inside, where two lines cross: one side tells the order of all four half-edges.
     fn crossing_of_two_lines(&self, surface: &Surface, row: &[u32]) -> Option<[u32; 4]> {
         let &[a, b, c, d] = row else { return None };
-        let line = |h: u32| match self.pieces[h as usize / 2].carrier {
-            Carrier::Line { other, .. } => Some(other),
-            _ => None,
-        };
+        let line = |h: u32| self.line(h).map(|l| l.0);
         let [la, lb, lc, ld] = [line(a)?, line(b)?, line(c)?, line(d)?];
         let (back, x, y) = if la == lb && lc == ld {
             (b, c, d)
@@ -152,7 +157,7 @@ impl Section {
         } else {
             return None;
         };
-        match self.turn_by_value(surface, a, x) {
+        match self.turn(surface, a, x) {
             Sign::Positive => Some([a, x, back, y]),
             Sign::Negative => Some([a, y, back, x]),
             Sign::Zero => None,
@@ -164,7 +169,7 @@ impl Section {
         let back = h & 1 != 0;
         match self.pieces[h as usize / 2].carrier {
             Carrier::Chord(t) => Heading::Across(Direction::Triangle(surface.mesh.corners(t)), back),
-            Carrier::Line { other, against } => Heading::Across(surface.knives.normal(other), back != against),
+            Carrier::Line { other, against, .. } => Heading::Across(surface.knives.normal(other), back != against),
             Carrier::MeshEdge(e) => {
                 let [a, b] = surface.mesh.edges[e.at()].map(|v| surface.mesh.vertices[v.at()]);
                 Heading::Along(Direction::Between(a, b), back)
@@ -172,17 +177,32 @@ impl Section {
         }
     }
 
+    /// The other plane of a half-edge on a line, and whether the half-edge runs against n_P × n_Q.
+    fn line(&self, h: u32) -> Option<(KnifeId, bool)> {
+        match self.pieces[h as usize / 2].carrier {
+            Carrier::Line { other, against, .. } => Some((other, against != (h & 1 != 0))),
+            _ => None,
+        }
+    }
+
+    /// A vertex of the surface ahead of a half-edge: on the same side of every plane through the half-edge's origin as the
+    /// half-edge itself.
+    fn ahead(&self, h: u32) -> VertexId {
+        match self.pieces[h as usize / 2].carrier {
+            Carrier::Line { ends, .. } => ends[1 - (h as usize & 1)],
+            _ => self.target(h),
+        }
+    }
+
     /// Sign of the sine of the angle from half-edge `a` to half-edge `b` (both leave the same vertex).
     pub fn turn(&self, surface: &Surface, a: u32, b: u32) -> Sign {
-        let line = |h: u32| match self.pieces[h as usize / 2].carrier {
-            Carrier::Line { other, against } => Some((other, against != (h & 1 != 0))),
-            _ => None,
-        };
-        match (line(a), line(b)) {
-            // Left of +(n_P × n_Q) is the negative side of Q.
-            (Some((q, against)), None) => negate_if(-surface.side(q, self.target(b)), against),
-            (None, Some((q, against))) => negate_if(surface.side(q, self.target(a)), against),
-            _ => self.turn_by_value(surface, a, b),
+        // Left of +(n_P × n_Q) is the negative side of Q.
+        if let Some((q, against)) = self.line(b) {
+            negate_if(surface.side(q, self.ahead(a)), against)
+        } else if let Some((q, against)) = self.line(a) {
+            negate_if(-surface.side(q, self.ahead(b)), against)
+        } else {
+            self.turn_by_value(surface, a, b)
         }
     }
 
@@ -244,6 +264,7 @@ impl Section {
             }
             (previous, previous_at) = (here, i);
         }
+        count_order(fall.is_none() && star.len() > 1);
         let gap = match fall {
             Some(gap) => gap,
             None if star.len() == 1 => 0,
@@ -254,6 +275,13 @@ impl Section {
         };
         Ok(self.inside_left(star[gap]))
     }
+}
+
+/// Counts an order of directions: known, or computed from coordinates. (The signs computed for it are counted by tier
+/// under `Direction`.)
+fn count_order(computed: bool) {
+    let tier = if computed { counters::Tier::Filter } else { counters::Tier::Topology };
+    counters::count(counters::Predicate::CyclicOrder, tier);
 }
 
 enum Heading {
