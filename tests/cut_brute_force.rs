@@ -156,6 +156,81 @@ fn stars() {
     });
 }
 
+/// Many planes through few points and lines, inside, on and outside the surface.
+#[test]
+fn concurrent_planes() {
+    attack(6, rounds(40), false, |r| {
+        let s = match r.below(3) {
+            0 => common::cube(-2.0, 2.0),
+            1 => star(0, || (1 + r.below(4)) as f64),
+            _ => {
+                let mut s = voxels(r, 2, 70);
+                s.vertices.iter_mut().for_each(|x| *x = x.map(|x| 2.0 * x - 2.0));
+                s
+            }
+        };
+        let knots: Vec<[f64; 3]> = (0..1 + r.below(2)).map(|_| [0; 3].map(|_| r.within(3) / 2.0)).collect();
+        let mut p = Vec::new();
+        for _ in 0..4 + r.below(6) {
+            let knot = |r: &mut Random| knots[r.below(knots.len() as u64) as usize];
+            let x = knot(r);
+            let mut n = [0; 3].map(|_| r.within(2));
+            if r.below(3) == 0 {
+                // Along the line between the knots, or along an axis.
+                let y = knots[knots.len() - 1];
+                let d: [f64; 3] = if x == y { [0.0, 0.0, 1.0] } else { std::array::from_fn(|i| 2.0 * (y[i] - x[i])) };
+                n = [n[1] * d[2] - n[2] * d[1], n[2] * d[0] - n[0] * d[2], n[0] * d[1] - n[1] * d[0]];
+            }
+            if n != [0.0; 3] {
+                p.push(Plane { n, d: -(n[0] * x[0] + n[1] * x[1] + n[2] * x[2]) });
+            }
+        }
+        (s, p)
+    });
+}
+
+/// Normals and offsets at both ends of the exponents, against mesh coordinates near 1 and near the ends.
+#[test]
+fn planes_of_any_magnitude() {
+    attack(7, rounds(15), false, |r| {
+        let mut s = star(r.below(2) as usize, || (1 + r.below(4)) as f64);
+        let k = [0, 0, 1, -1, 990, -990][r.below(6) as usize];
+        let by = |x: f64, k: i32| x * 2f64.powi(k / 2) * 2f64.powi(k - k / 2);
+        s.vertices.iter_mut().for_each(|x| *x = x.map(|x| by(x, k)));
+        let mut p: Vec<Plane> = Vec::new();
+        for _ in 0..1 + r.below(5) {
+            let ends = |r: &mut Random| {
+                [1e-300, 1e300, 1.0, 0.0, 5e-324, -f64::MAX, 1e-170, -1e150][r.below(8) as usize] * r.unit()
+            };
+            let mut n = [0; 3].map(|_| ends(r));
+            let mut d = ends(r);
+            match r.below(4) {
+                // All of one magnitude.
+                0 | 1 => {
+                    let m = [-1000, -500, 500, 900][r.below(4) as usize];
+                    n = [0; 3].map(|_| by(r.unit(), m));
+                    d = by(r.unit(), (m + k).clamp(-1070, 1020));
+                }
+                // Nearly an old one.
+                2 if !p.is_empty() => {
+                    let q = p[r.below(p.len() as u64) as usize];
+                    (n, d) = (q.n, q.d.next_up());
+                    let i = r.below(3) as usize;
+                    if r.below(2) == 0 {
+                        n[i] = n[i].next_up();
+                        d = q.d;
+                    }
+                }
+                _ => {}
+            }
+            if n != [0.0; 3] && d.is_finite() && n.iter().all(|x| x.is_finite()) {
+                p.push(Plane { n, d });
+            }
+        }
+        (s, p)
+    });
+}
+
 /// Coordinates of every magnitude in one mesh: a star of fixed directions is valid with any lengths.
 #[test]
 fn mixed_magnitudes() {
@@ -219,4 +294,15 @@ fn scaled_to_the_ends() {
     }
     assert!(tried > 20, "{tried}");
     assert!(failed.is_empty(), "{} of {tried} failed:\n{}", failed.len(), failed[..failed.len().min(3)].join("\n\n"));
+}
+
+/// The values of a plane at the two ends of a segment are finite, their difference is not.
+#[test]
+fn values_near_the_largest_double() {
+    let p = [([1.0, 0.0, 0.0], -0.5), ([0.0, 1.0, 0.0], -0.5), ([0.0, 0.0, 8e307], 0.0), ([0.25, 0.0, 1.0], 1.0)];
+    let p = p.map(|(n, d)| Plane { n, d });
+    for reversed in [false, true] {
+        let p = p.map(|p| if reversed { Plane { n: p.n.map(|x| -x), d: -p.d } } else { p });
+        assert_eq!(verify(&common::cube(-2.0, 2.0), &p, false), Ok(true));
+    }
 }

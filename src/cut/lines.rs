@@ -402,12 +402,13 @@ impl Scratch {
 ///
 /// The computed v and w (at rounded coordinates) are within E of the true values, which have opposite signs, and
 /// ∂t/∂v = −w/(v−w)², ∂t/∂w = v/(v−w)², so to first order |dt| ≤ E/|v−w|. With E ≤ |v−w|/16 the higher orders add less than
-/// a fifth, rounding adds 3u; the bound takes twice the first order plus 4u. If E is larger nothing is certain.
+/// a fifth, rounding adds 3u; the bound takes twice the first order plus 4u. If E is larger nothing is certain; nor if
+/// the difference of two finite values overflows.
 fn crossing_fraction(surface: &Surface, k: KnifeId, ends: [VertexId; 2]) -> (f64, f64) {
     let (v, bound) = surface.knives.value_at_rounded(k, &surface.coords[ends[0].at()]);
     let (w, _) = surface.knives.value_at_rounded(k, &surface.coords[ends[1].at()]);
     let difference = v - w;
-    if bound * 16.0 < difference.abs() {
+    if bound * 16.0 < difference.abs() && difference.is_finite() {
         (v / difference, 2.0 * bound / difference.abs() + 2.0 * f64::EPSILON)
     } else {
         (0.5, f64::INFINITY)
