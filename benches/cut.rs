@@ -8,15 +8,7 @@ use std::sync::Arc;
 
 #[path = "../tests/common/mod.rs"]
 mod common;
-
-/// SplitMix64, as doubles in [0, 1).
-fn unit(state: &mut u64) -> f64 {
-    *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    let mut z = *state;
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-}
+use common::random::Random;
 
 fn planes(kind: &str, count: usize, bbox: [[f64; 3]; 2]) -> Vec<Plane> {
     let [low, high] = bbox;
@@ -25,10 +17,10 @@ fn planes(kind: &str, count: usize, bbox: [[f64; 3]; 2]) -> Vec<Plane> {
         let plane = |a: usize, i: usize| Plane { n: std::array::from_fn(|j| (j == a) as u8 as f64), d: -at(a, i) };
         return (0..3).flat_map(|a| (0..count).map(move |i| plane(a, i))).collect();
     }
-    let mut state = 1;
+    let mut random = Random(1);
     let mut one = || {
-        let n: [f64; 3] = std::array::from_fn(|_| 2.0 * unit(&mut state) - 1.0);
-        let x: [f64; 3] = std::array::from_fn(|a| low[a] + (high[a] - low[a]) * unit(&mut state));
+        let n: [f64; 3] = std::array::from_fn(|_| 2.0 * random.unit() - 1.0);
+        let x: [f64; 3] = std::array::from_fn(|a| low[a] + (high[a] - low[a]) * random.unit());
         Plane { n, d: -(n[0] * x[0] + n[1] * x[1] + n[2] * x[2]) }
     };
     (0..count).map(|_| one()).collect()

@@ -1,32 +1,21 @@
 //! Random input, good and bad, through the C functions: every call ends with a status of the documented ones and a handle
 //! exactly on success; what is made passes its own check and adds up. Deterministic.
 
+#[path = "common/random.rs"]
+mod random;
+
 use lapidary::capi::{context::*, cut::*, derived::*, mesh::*, status::*};
+use random::Random;
 use std::ptr::{null, null_mut};
 
-/// xorshift64*
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 ^= self.0 >> 12;
-        self.0 ^= self.0 << 25;
-        self.0 ^= self.0 >> 27;
-        self.0.wrapping_mul(0x2545_f491_4f6c_dd1d)
-    }
-    fn below(&mut self, n: u64) -> u64 {
-        self.next() % n
-    }
-    /// Small whole numbers nearly always, so that everything degenerate happens; now and then anything at all.
-    fn number(&mut self, wild: u64) -> f64 {
-        match self.below(64) {
-            i if i < wild => f64::from_bits(self.next()),
-            i if i < 2 * wild => {
-                [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, f64::MAX, f64::MIN_POSITIVE, 5e-324, -0.0]
-                    [self.below(7) as usize]
-            }
-            _ => self.below(7) as f64 - 3.0,
+/// Small whole numbers nearly always, so that everything degenerate happens; now and then anything at all.
+fn number(r: &mut Random, wild: u64) -> f64 {
+    match r.below(64) {
+        i if i < wild => f64::from_bits(r.bits()),
+        i if i < 2 * wild => {
+            [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, f64::MAX, f64::MIN_POSITIVE, 5e-324, -0.0][r.below(7) as usize]
         }
+        _ => r.below(7) as f64 - 3.0,
     }
 }
 
@@ -39,7 +28,7 @@ fn soup(r: &mut Random) -> (Vec<f64>, Vec<i32>) {
     let (mut xyz, mut indices) = (Vec::new(), Vec::new());
     if r.below(4) == 0 {
         for _ in 0..3 * r.below(10) {
-            xyz.push(r.number(wild));
+            xyz.push(number(r, wild));
         }
         for _ in 0..3 * r.below(12) {
             indices.push(r.below(11) as i32 - 1);
@@ -48,12 +37,12 @@ fn soup(r: &mut Random) -> (Vec<f64>, Vec<i32>) {
     }
     for _ in 0..1 + r.below(2) {
         let first = (xyz.len() / 3) as i32;
-        let low: [f64; 3] = std::array::from_fn(|_| r.number(wild));
+        let low: [f64; 3] = std::array::from_fn(|_| number(r, wild));
         let size: [f64; 3] = std::array::from_fn(|_| 1.0 + r.below(4) as f64);
         for corner in [0, 1, 3, 2, 4, 5, 7, 6] {
             for axis in 0..3 {
                 // Corners move now and then: skew boxes, which may turn inside out.
-                let shift = if r.below(12) == 0 { r.number(wild) } else { 0.0 };
+                let shift = if r.below(12) == 0 { number(r, wild) } else { 0.0 };
                 xyz.push(low[axis] + size[axis] * f64::from(corner >> axis & 1) + shift);
             }
         }
@@ -100,7 +89,7 @@ fn any_input_ends_with_a_status() {
             }
             meshes += 1;
             let wild = [0, 0, 1, 3][r.below(4) as usize];
-            let planes: Vec<f64> = (0..4 * r.below(7)).map(|_| r.number(wild)).collect();
+            let planes: Vec<f64> = (0..4 * r.below(7)).map(|_| number(&mut r, wild)).collect();
             let mut cut = null_mut();
             let status = lap_cut_new(context, mesh, (planes.len() / 4) as i64, planes.as_ptr(), null(), &mut cut);
             assert_eq!(status == LAP_OK, !cut.is_null(), "round {round}");

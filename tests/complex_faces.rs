@@ -1,5 +1,8 @@
 //! Faces triangulated and bridged: random faces with holes, slits, pinched and isolated vertices, seen along every axis.
 
+#[path = "common/random.rs"]
+mod random;
+
 #[path = "common/complexes.rs"]
 mod complexes;
 
@@ -7,6 +10,7 @@ use complexes::*;
 use lapidary::base::{FaceId, VertexId};
 use lapidary::complex::{Complex, FaceStyle, faces_as};
 use lapidary::exact::Plane;
+use random::Random;
 use rug::Rational;
 use std::collections::BTreeMap;
 
@@ -110,17 +114,6 @@ fn verify(name: &str, c: &Complex) {
 fn small_complexes() {
     for (name, c) in all() {
         verify(name, &c);
-    }
-}
-
-struct Random(u64);
-
-impl Random {
-    fn below(&mut self, n: u64) -> u64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 16) % n
     }
 }
 

@@ -1,5 +1,8 @@
 //! Every moment equals the correctly rounded rational, computed from definitions.
 
+#[path = "common/random.rs"]
+mod random;
+
 #[path = "common/complexes.rs"]
 mod complexes;
 
@@ -11,6 +14,7 @@ use lapidary::complex::exact_values::{
 };
 use lapidary::complex::{Complex, Moments, moments};
 use lapidary::exact::{Plane, round_rational};
+use random::Random;
 use rug::Rational;
 
 /// Bitwise: −0 is not +0.
@@ -57,25 +61,10 @@ fn volumes_add_up() {
     }
 }
 
-/// A small generator, so that failures repeat.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        self.0
-    }
-    /// In [0, 1), with all 53 bits.
-    fn unit(&mut self) -> f64 {
-        (self.next() >> 11) as f64 / (1u64 << 53) as f64
-    }
-    fn plane(&mut self) -> Plane {
-        let n = [self.unit() - 0.5, self.unit() - 0.5, self.unit() - 0.5];
-        let through = [6.0 * self.unit(), 6.0 * self.unit(), 6.0 * self.unit()];
-        plane(n, -(n[0] * through[0] + n[1] * through[1] + n[2] * through[2]))
-    }
+fn random_plane(r: &mut Random) -> Plane {
+    let n = [r.unit() - 0.5, r.unit() - 0.5, r.unit() - 0.5];
+    let through = [6.0 * r.unit(), 6.0 * r.unit(), 6.0 * r.unit()];
+    plane(n, -(n[0] * through[0] + n[1] * through[1] + n[2] * through[2]))
 }
 
 #[test]
@@ -83,7 +72,7 @@ fn random_planes() {
     let mut random = Random(88172645463325252);
     let (mut cells, mut rational) = (0, 0);
     for _ in 0..12 {
-        let planes: Vec<Plane> = (0..4).map(|_| random.plane()).collect();
+        let planes: Vec<Plane> = (0..4).map(|_| random_plane(&mut random)).collect();
         let c = cut_cube(&planes);
         let m = compare("random", &c);
         cells += m.cell_volume.len() + m.face_flags.len();

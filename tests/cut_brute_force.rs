@@ -110,7 +110,7 @@ fn cubes_off_the_lattice() {
         let (size, fill) = (1 + r.below(3) as i32, 20 + r.below(60));
         let mut s = voxels(r, size, fill);
         for x in &mut s.vertices {
-            *x = x.map(|x| x + r.unit() * 0.15);
+            *x = x.map(|x| x + r.signed() * 0.15);
         }
         let count = 1 + r.below(5) as usize;
         let p = planes(r, &s, count, true);
@@ -147,7 +147,7 @@ fn stars() {
         let s = match r.below(3) {
             0 => star(0, || (1 + r.below(4)) as f64),
             1 => star(1, || (1 + r.below(4)) as f64),
-            _ => star(1, || (1.5 + r.unit()) as f32 as f64),
+            _ => star(1, || (1.5 + r.signed()) as f32 as f64),
         };
         let doubles = r.below(2) == 0;
         let count = 1 + r.below(7) as usize;
@@ -200,7 +200,7 @@ fn planes_of_any_magnitude() {
         let mut p: Vec<Plane> = Vec::new();
         for _ in 0..1 + r.below(5) {
             let ends = |r: &mut Random| {
-                [1e-300, 1e300, 1.0, 0.0, 5e-324, -f64::MAX, 1e-170, -1e150][r.below(8) as usize] * r.unit()
+                [1e-300, 1e300, 1.0, 0.0, 5e-324, -f64::MAX, 1e-170, -1e150][r.below(8) as usize] * r.signed()
             };
             let mut n = [0; 3].map(|_| ends(r));
             let mut d = ends(r);
@@ -208,8 +208,8 @@ fn planes_of_any_magnitude() {
                 // All of one magnitude.
                 0 | 1 => {
                     let m = [-1000, -500, 500, 900][r.below(4) as usize];
-                    n = [0; 3].map(|_| by(r.unit(), m));
-                    d = by(r.unit(), (m + k).clamp(-1070, 1020));
+                    n = [0; 3].map(|_| by(r.signed(), m));
+                    d = by(r.signed(), (m + k).clamp(-1070, 1020));
                 }
                 // Nearly an old one.
                 2 if !p.is_empty() => {

@@ -128,7 +128,7 @@ fn overlapping_shells() {
 fn inverted_stars() {
     attack(23, rounds(300), |r| {
         let levels = r.below(2) as usize;
-        let s = star(levels, || [1.0, 2.0, -1.0, 3.0, 1.0 + r.unit() / 2.0][r.below(5) as usize]);
+        let s = star(levels, || [1.0, 2.0, -1.0, 3.0, 1.0 + r.signed() / 2.0][r.below(5) as usize]);
         let count = 1 + r.below(6) as usize;
         let p = planes(r, &s, count, true);
         (s, p)

@@ -3,6 +3,7 @@
 
 mod common;
 
+use common::random::Random;
 use lapidary::base::{CellId, Run, Status};
 use lapidary::complex::{Complex, check, check_volumes, euler, solid_euler};
 use lapidary::cut::{CutOptions, cut};
@@ -10,21 +11,6 @@ use lapidary::exact::{Plane, Sign, Support, support_side};
 use lapidary::mesh::{MeshInput, MeshOptions, TriMesh, build};
 use std::path::Path;
 use std::sync::Arc;
-
-struct Random(u64);
-
-impl Random {
-    fn below(&mut self, n: u64) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        (z ^ (z >> 31)) % n
-    }
-    fn within(&mut self, bound: i64) -> f64 {
-        (self.below(2 * bound as u64 + 1) as i64 - bound) as f64
-    }
-}
 
 /// Rounds of each fuzz: `LAPIDARY_FUZZ=n` for more.
 fn rounds(default: u64) -> u64 {

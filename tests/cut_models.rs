@@ -5,31 +5,13 @@
 
 mod common;
 
+use common::random::Random;
 use lapidary::base::Run;
 use lapidary::complex::{check, check_volumes, euler, solid_euler};
 use lapidary::cut::{CutOptions, cut};
 use lapidary::exact::Plane;
 use lapidary::mesh::TriMesh;
 use std::sync::Arc;
-
-/// A small fixed generator (SplitMix64): the same planes everywhere.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-    fn unit(&mut self) -> f64 {
-        (self.next() >> 11) as f64 / (1u64 << 53) as f64
-    }
-    fn below(&mut self, n: usize) -> usize {
-        (self.next() % n as u64) as usize
-    }
-}
 
 fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
@@ -80,7 +62,7 @@ fn incident(mesh: &TriMesh, count: usize, random: &mut Random) -> Vec<Plane> {
     let corner = |t: usize, k: usize| mesh.vertices[mesh.triangles[t][k].at()];
     let mut planes = Vec::new();
     for i in 0..count {
-        let t = random.below(mesh.triangles.len());
+        let t = random.below(mesh.triangles.len() as u64) as usize;
         let [a, b, c] = [corner(t, 0), corner(t, 1), corner(t, 2)];
         planes.push(axis_plane(i % 3, a[i % 3]));
         let sideways = [0; 3].map(|_| random.below(5) as f64 - 2.0);

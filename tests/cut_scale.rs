@@ -81,8 +81,8 @@ fn parallel_planes() {
     // Each in a scale of its own, in any order.
     let scaled: Vec<Plane> = (0..count)
         .map(|_| {
-            let s = random.unit() * 2f64.powi(random.below(60) as i32 - 30);
-            plane([s, 0.0, 0.0], s * random.unit())
+            let s = random.signed() * 2f64.powi(random.below(60) as i32 - 30);
+            plane([s, 0.0, 0.0], s * random.signed())
         })
         .collect();
     run("parallel, scaled", &cube(), &scaled);
@@ -99,7 +99,7 @@ fn grid_in_a_cube() {
 fn planes_through_the_centre() {
     let n = if full() { 300 } else { 60 };
     let mut random = Random(2);
-    let planes: Vec<Plane> = (0..n).map(|_| plane([0; 3].map(|_| random.unit()), 0.0)).collect();
+    let planes: Vec<Plane> = (0..n).map(|_| plane([0; 3].map(|_| random.signed()), 0.0)).collect();
     let c = run("through the centre", &cube(), &planes);
     // General planes through a point: n (n − 1) + 2 cones.
     assert_eq!(c.cell_count(), n * (n - 1) + 2);
@@ -109,7 +109,7 @@ fn planes_through_the_centre() {
 fn random_planes_in_a_cube() {
     let n = if full() { 120 } else { 40 };
     let mut random = Random(9);
-    let planes: Vec<Plane> = (0..n).map(|_| plane([0; 3].map(|_| random.unit()), random.unit() / 4.0)).collect();
+    let planes: Vec<Plane> = (0..n).map(|_| plane([0; 3].map(|_| random.signed()), random.signed() / 4.0)).collect();
     run("random planes", &cube(), &planes);
 }
 

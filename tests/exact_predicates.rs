@@ -350,7 +350,7 @@ fn integers_of_width<const N: usize>(seed: u64) {
     let limbs = |r: &mut Random| -> Vec<i64> {
         let n = 1 + r.below(N as u64) as usize;
         let ends = [0, 1, -1, i64::MIN, i64::MAX, i64::MIN + 1];
-        (0..n).map(|_| if r.below(2) == 0 { ends[r.below(6) as usize] } else { r.next() as i64 }).collect()
+        (0..n).map(|_| if r.below(2) == 0 { ends[r.below(6) as usize] } else { r.bits() as i64 }).collect()
     };
     let build = |l: &[i64]| -> (Int<N>, Integer) {
         let shift = Int::<N>::scaled(2f64.powi(64), 0);
@@ -404,7 +404,7 @@ fn integers_on_the_stack() {
     let mut r = Random(18);
     for _ in 0..20_000 {
         // A double on any exponent up to its own lowest bit.
-        let x = f64::from_bits(r.next());
+        let x = f64::from_bits(r.bits());
         if !x.is_finite() || x == 0.0 {
             continue;
         }

@@ -1,6 +1,8 @@
 //! What the integration tests share: readers of polygon files, where optional data lies, and small solids.
 #![allow(dead_code)]
 
+pub mod random;
+
 use lapidary::base::{Culprit, DefectKind, Error, Run};
 use lapidary::mesh::{MeshInput, MeshOptions, TriMesh, build};
 use std::collections::HashMap;

@@ -2,30 +2,8 @@
 #![allow(dead_code)]
 
 use super::common::Soup;
+pub use super::common::random::Random;
 use lapidary::exact::Plane;
-
-/// SplitMix64.
-pub struct Random(pub u64);
-
-impl Random {
-    pub fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-    pub fn below(&mut self, n: u64) -> u64 {
-        self.bits() % n
-    }
-    pub fn within(&mut self, bound: i64) -> f64 {
-        (self.below(2 * bound as u64 + 1) as i64 - bound) as f64
-    }
-    /// In [−1, 1), all bits random.
-    pub fn unit(&mut self) -> f64 {
-        (self.bits() >> 11) as f64 * 2f64.powi(-52) - 1.0
-    }
-}
 
 /// A random set of unit cubes of a lattice: components, voids, non-manifold edges and vertices by shared index; each square
 /// is split along a random diagonal.
@@ -188,7 +166,7 @@ pub fn planes(random: &mut Random, s: &Soup, count: usize, doubles: bool) -> Vec
                 p.d += random.within(2) * p.n.iter().fold(0.0, |m: f64, x| m.max(x.abs())) / 2.0;
                 Some(p)
             }
-            9 => Some(Plane { n: [0; 3].map(|_| random.unit()), d: random.unit() }),
+            9 => Some(Plane { n: [0; 3].map(|_| random.signed()), d: random.signed() }),
             10 => {
                 let mut p = old(random, &out);
                 p.d = p.d.next_up();

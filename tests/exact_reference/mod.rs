@@ -3,32 +3,16 @@
 //! compare on.
 #![allow(dead_code)]
 
+#[path = "../common/random.rs"]
+pub mod random;
+
 use lapidary::exact::{Direction, Plane, Point, Sign, Support};
+pub use random::Random;
 use rug::Rational;
 use std::cmp::Ordering;
 
 pub type Q = Rational;
 pub type Q3 = [Rational; 3];
-
-/// Small, seeded, the same everywhere (splitmix64).
-pub struct Random(pub u64);
-
-impl Random {
-    pub fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-    pub fn below(&mut self, n: u64) -> u64 {
-        self.next() % n
-    }
-    /// In [-1, 1).
-    pub fn unit(&mut self) -> f64 {
-        (self.next() >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
-}
 
 /// Kinds of input numbers.
 pub const KINDS: [&str; 10] = [
@@ -47,7 +31,7 @@ pub const KINDS: [&str; 10] = [
 pub fn number(r: &mut Random, kind: usize) -> f64 {
     let small = |r: &mut Random| r.below(7) as f64 - 3.0;
     match kind {
-        0 => r.unit(),
+        0 => r.signed(),
         1 => small(r),
         2 => {
             let mut x = small(r);
@@ -62,15 +46,15 @@ pub fn number(r: &mut Random, kind: usize) -> f64 {
             if r.below(2) == 0 { x } else { -x }
         }
         4 => small(r) * 1e-170,
-        5 => r.unit() * 1e150,
-        6 => r.unit() * 2f64.powi(r.below(1900) as i32 - 950),
-        7 => r.unit() * 2f64.powi(r.below(80) as i32 - 40),
+        5 => r.signed() * 1e150,
+        6 => r.signed() * 2f64.powi(r.below(1900) as i32 - 950),
+        7 => r.signed() * 2f64.powi(r.below(80) as i32 - 40),
         8 => (r.below(17) as f64 - 8.0) / 4.0,
         _ => {
             if r.below(2) == 0 {
                 small(r)
             } else {
-                r.unit()
+                r.signed()
             }
         }
     }
