@@ -169,9 +169,9 @@ fn certified_bounds() {
     let mut exactly = 0;
     for round in 0..20000 {
         let mut pick = |bits: u64| {
-            let m = (random.next() >> (64 - bits)) as f64;
-            let s = if random.next() & 1 == 1 { -1.0 } else { 1.0 };
-            s * m * 2f64.powi((random.next() % 40) as i32 - 20)
+            let m = (random.bits() >> (64 - bits)) as f64;
+            let s = if random.bits() & 1 == 1 { -1.0 } else { 1.0 };
+            s * m * 2f64.powi((random.bits() % 40) as i32 - 20)
         };
         // Few bits: everything is exact. Many: nothing is.
         let bits = [5, 24, 53][round % 3];
