@@ -89,6 +89,18 @@ pub fn edge_points(mesh: &TriMesh, knives: &Knives, classified: &Classified) -> 
 }
 
 impl EdgePoints {
+    /// Points of an edge follow one another, and each lies on its lead.
+    pub fn check(&self) -> Result<(), String> {
+        self.knives.check()?;
+        if *self.first.last().unwrap_or(&0) as usize != self.edge.len() || self.lead.len() != self.edge.len() {
+            return Err("points on edges do not match their edges".into());
+        }
+        if let Some(i) = (0..self.edge.len()).find(|&i| self.knives.row(i).binary_search(&self.lead[i]).is_err()) {
+            return Err(format!("point {i} on an edge is not on its own plane"));
+        }
+        Ok(())
+    }
+
     /// Number of points on an edge.
     #[inline(always)]
     pub fn count(&self, e: EdgeId) -> usize {

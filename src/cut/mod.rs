@@ -47,9 +47,11 @@ pub fn cut(mesh: &Arc<TriMesh>, planes: &[Plane], _options: &CutOptions, run: &m
     let max_abs = std::array::from_fn(|i| low[i].abs().max(high[i].abs()));
     let knives = classify::Knives::new(planes, max_abs);
     let classified = classify::classify(mesh, &knives);
+    debug_assert_eq!(classified.check(mesh, &knives), Ok(()));
     limit(mesh.edges.len() + classified.edge_crossings.items.len())?;
     run.stage("edges", 0.15)?;
     let points = edges::edge_points(mesh, &knives, &classified);
+    debug_assert_eq!(points.check(), Ok(()));
     let first_edge_point = mesh.vertices.len() as u32;
     let numbering = triangles::Numbering {
         first_edge_point,
@@ -58,6 +60,7 @@ pub fn cut(mesh: &Arc<TriMesh>, planes: &[Plane], _options: &CutOptions, run: &m
     };
     run.stage("triangles", 0.25)?;
     let sub = triangles::subdivide(mesh, &knives, &classified, &points, numbering);
+    debug_assert_eq!(sub.check(), Ok(()));
     limit(numbering.first_inner_point as usize + sub.point_triangle.len())?;
     limit(numbering.first_chord_piece as usize + sub.pieces.len())?;
     run.stage("round", 0.4)?;
@@ -82,6 +85,7 @@ pub fn cut(mesh: &Arc<TriMesh>, planes: &[Plane], _options: &CutOptions, run: &m
     let contents = sections::plane_contents(&surface);
     let (mut graphs, mut lines) = lines::sections_and_lines(&surface, &contents)?;
     let inner = lines::number_inner(&surface, &mut lines, surface_count as u32);
+    debug_assert_eq!(lines.check(), Ok(()));
     limit(surface_count + inner.names.len())?;
     let first_line_edge = numbering.first_chord_piece + sub.pieces.len() as u32;
     limit(first_line_edge as usize + lines.ends.len() + lines.points.items.len())?;
