@@ -5,4 +5,5 @@ pub mod capi;
 pub mod complex;
 pub mod cut;
 pub mod exact;
+pub mod grid;
 pub mod mesh;

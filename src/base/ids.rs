@@ -62,4 +62,8 @@ ids! {
     ShellId,
     /// An edge-connected component of the input surface.
     ComponentId,
+    /// A box of a block of a rectilinear grid: i + nx·(j + ny·k).
+    BoxId,
+    /// A node of a block of a rectilinear grid: i + (nx + 1)·(j + (ny + 1)·k).
+    NodeId,
 }
