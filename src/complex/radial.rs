@@ -140,16 +140,42 @@ pub fn wedge_pairs(
     // The signs computed here are counted by tier under `Direction`.
     counters::count(counters::Predicate::RadialOrder, counters::Tier::Filter);
     let Some((axis, along)) = edge_axis(c, edge) else { return Err(contradiction(edge)) };
-    let mut unit = [0.0; 3];
-    unit[axis] = 1.0;
-    let unit = Direction::Plane(unit);
     scratch.clear();
     scratch.extend(0..uses.len() as u32);
     let normal = |i: u32| face_normal(c, uses[i as usize].face);
     let same = |i: u32, j: u32| uses[i as usize].forward == uses[j as usize].forward;
     let support = |i: u32| c.face_support[uses[i as usize].face.at()];
+    sort_around(scratch, axis, along, support, normal, same);
+    for (k, &i) in scratch.iter().enumerate() {
+        let j = scratch[if k + 1 == scratch.len() { 0 } else { k + 1 }];
+        let (from, to) = (uses[i as usize], uses[j as usize]);
+        // Before a surface face is the outside of the solid.
+        let from_inside = !(on_surface(c, from) && from.far().front());
+        let to_inside = !(on_surface(c, to) && to.near().front());
+        match (from_inside, to_inside) {
+            (true, true) => pair(i, from.far(), j, to.near()),
+            (false, false) => {}
+            _ => return Err(contradiction(edge)),
+        }
+    }
+    Ok(())
+}
+
+/// Sorts half-planes around an edge counter-clockwise about its direction. Each is given by the support and the normal of its face and by
+/// whether the face walks the edge the same way as another's; `along`: the edge's coordinate along `axis` rises.
+pub fn sort_around(
+    items: &mut [u32],
+    axis: usize,
+    along: bool,
+    support: impl Fn(u32) -> SupportId,
+    normal: impl Fn(u32) -> Direction,
+    same: impl Fn(u32, u32) -> bool,
+) {
+    let mut unit = [0.0; 3];
+    unit[axis] = 1.0;
+    let unit = Direction::Plane(unit);
     sort_cyclic(
-        scratch,
+        items,
         |&i, &j| {
             if support(i) == support(j) {
                 return Sign::Zero;
@@ -165,19 +191,6 @@ pub fn wedge_pairs(
             (sign == Sign::Positive) != same(i, j)
         },
     );
-    for (k, &i) in scratch.iter().enumerate() {
-        let j = scratch[if k + 1 == scratch.len() { 0 } else { k + 1 }];
-        let (from, to) = (uses[i as usize], uses[j as usize]);
-        // Before a surface face is the outside of the solid.
-        let from_inside = !(on_surface(c, from) && from.far().front());
-        let to_inside = !(on_surface(c, to) && to.near().front());
-        match (from_inside, to_inside) {
-            (true, true) => pair(i, from.far(), j, to.near()),
-            (false, false) => {}
-            _ => return Err(contradiction(edge)),
-        }
-    }
-    Ok(())
 }
 
 /// The cycle around a plain line inside, where two planes cross: the line's direction tells the order of all four faces.

@@ -127,16 +127,17 @@ pub fn section_faces(
             }
             map.prepare(all.origins.len());
             section.build_stars(all.surface, map);
-            let faces = faces_of(all, contents, section, map, keep_half_edges);
+            let faces = faces_of(all, contents.vertices.row(section.knife), section, map, keep_half_edges);
             map.clear(section);
             faces
         })
         .collect()
 }
 
-fn faces_of(
+/// The faces of one section with its lines. `vertices`: the mesh vertices on the plane that may touch a face.
+pub fn faces_of(
     all: &AllVertices,
-    contents: &PlaneContents,
+    vertices: &[VertexId],
     section: &Section,
     map: &LocalMap,
     keep_half_edges: bool,
@@ -150,9 +151,7 @@ fn faces_of(
             section.target(h).0
         ))
     })?;
-    let touching: Vec<VertexId> = contents
-        .vertices
-        .row(section.knife)
+    let touching: Vec<VertexId> = vertices
         .iter()
         .copied()
         .filter(|&v| map.get(v).is_none() && touching_is_inside(surface, v, section.knife))

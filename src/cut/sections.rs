@@ -95,6 +95,12 @@ impl Section {
 
     /// Numbers the vertices and gathers and sorts the stars. `map` is left filled.
     pub fn build_stars(&mut self, surface: &Surface, map: &mut LocalMap) {
+        self.gather_stars(map);
+        self.sort_stars(surface);
+    }
+
+    /// Numbers the vertices and gathers the stars, in no order yet. `map` is left filled.
+    pub fn gather_stars(&mut self, map: &mut LocalMap) {
         map.clear(self);
         self.vertices.clear();
         for piece in &self.pieces {
@@ -112,6 +118,9 @@ impl Section {
             .flat_map(|(i, p)| [(p.ends[0], 2 * i as u32), (p.ends[1], 2 * i as u32 + 1)]);
         let star = Csr::from_pairs(self.vertices.len(), ends.map(|(v, h)| (map.place[v.at()] as usize, h)));
         self.star = star;
+    }
+
+    fn sort_stars(&mut self, surface: &Surface) {
         let mut row = Vec::new();
         for v in 0..self.vertices.len() {
             let range = self.star.range(v);
@@ -332,19 +341,24 @@ pub fn surface_pieces(surface: &Surface, contents: &PlaneContents, knife: KnifeI
         }
     }
     for &e in contents.edges.row(knife) {
-        let (left, right) = edge_sides(surface, e, knife);
-        if !left && !right {
-            continue;
-        }
-        let first = super::triangles::edge_piece(surface.points, e);
-        let count = surface.points.count(e) as u32;
-        let first_point = surface.numbering.first_edge_point + surface.points.first[e.at()];
-        let [a, b] = surface.mesh.edges[e.at()];
-        let at = |i: u32| if i == 0 { a } else { VertexId(first_point + i - 1) };
-        for i in 0..=count {
-            let ends = [at(i), if i == count { b } else { at(i + 1) }];
-            pieces.push(Piece { ends, edge: EdgeId(first + i), carrier: Carrier::MeshEdge(e), left, right });
-        }
+        edge_pieces(surface, e, knife, pieces);
+    }
+}
+
+/// The pieces of a mesh edge that lies in a plane, unless neither side of it is inside.
+pub fn edge_pieces(surface: &Surface, e: EdgeId, knife: KnifeId, pieces: &mut Vec<Piece>) {
+    let (left, right) = edge_sides(surface, e, knife);
+    if !left && !right {
+        return;
+    }
+    let first = super::triangles::edge_piece(surface.points, e);
+    let count = surface.points.count(e) as u32;
+    let first_point = surface.numbering.first_edge_point + surface.points.first[e.at()];
+    let [a, b] = surface.mesh.edges[e.at()];
+    let at = |i: u32| if i == 0 { a } else { VertexId(first_point + i - 1) };
+    for i in 0..=count {
+        let ends = [at(i), if i == count { b } else { at(i + 1) }];
+        pieces.push(Piece { ends, edge: EdgeId(first + i), carrier: Carrier::MeshEdge(e), left, right });
     }
 }
 
@@ -358,7 +372,7 @@ fn apex(surface: &Surface, u: EdgeUse) -> VertexId {
 /// Solid wedges run counter-clockwise around the edge from a triangle that walks it backward to one that walks it
 /// forward. The half-plane on the left is n_P × w, so the turn from a triangle to it is minus the side of the
 /// triangle's apex; a wedge wider than 180 degrees is told from a narrow one only where that matters.
-fn edge_sides(surface: &Surface, e: EdgeId, knife: KnifeId) -> (bool, bool) {
+pub fn edge_sides(surface: &Surface, e: EdgeId, knife: KnifeId) -> (bool, bool) {
     let mut mates = Vec::new();
     mesh::wedge_mates(surface.mesh, e, &mut Default::default(), &mut mates);
     let mut sides = [false; 2];

@@ -61,6 +61,26 @@ impl DoubleDouble {
     pub fn exactly(x: f64) -> Self {
         Self { hi: x, lo: 0.0, err: 0.0 }
     }
+
+    /// The quotient, within `err`; `None` if nothing is known of it (overflow, a divisor that may be zero).
+    ///
+    /// Two quotient digits; the remainder's own bound then says how far off they are, whatever their accuracy:
+    /// |n − (q₁ + q₂)w| ≤ |r| + err, over the least |w|, rounded up by a wide margin.
+    #[inline]
+    pub fn over(&self, w: &Self) -> Option<Self> {
+        let q1 = self.hi / w.hi;
+        let r = self.minus(&Self::exactly(q1).times(w));
+        let q2 = r.hi / w.hi;
+        let r = r.minus(&Self::exactly(q2).times(w));
+        let least = (w.hi.abs() - w.err) * (1.0 - 8.0 * U);
+        let off = (r.hi.abs() * (1.0 + 4.0 * U) + r.err) * (1.0 + 8.0 * U) / least * (1.0 + 4.0 * U);
+        // Also false for NaN. |q2| <= |q1| can fail only where the quotient is lost in its error; the sum is then not exact.
+        if !(least > f64::MIN_POSITIVE && off < f64::MAX && q2.abs() <= q1.abs()) {
+            return None;
+        }
+        let (hi, lo) = fast_two_sum(q1, q2);
+        hi.is_finite().then_some(Self { hi, lo, err: off + f64::from_bits(1) })
+    }
 }
 
 impl Ring for DoubleDouble {

@@ -59,6 +59,10 @@ impl Lattice {
     pub fn count(&self, axis: usize) -> usize {
         self.nodes[axis].len() - 1
     }
+    /// Number of nodes along each axis.
+    pub fn node_counts(&self) -> [usize; 3] {
+        [self.nodes[0].len(), self.nodes[1].len(), self.nodes[2].len()]
+    }
     pub fn box_count(&self) -> usize {
         self.count(0) * self.count(1) * self.count(2)
     }

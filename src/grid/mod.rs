@@ -1,11 +1,32 @@
 //! Grid: the boxes of a rectilinear grid against a surface: full, empty or cut into polyhedra.
 
+pub mod assemble;
+pub mod cells;
 pub mod data;
+pub mod ground;
+pub mod inside;
 pub mod lattice;
+pub mod lines;
+pub mod oriented;
+pub mod pieces;
+pub mod points;
+pub mod squares;
+pub mod touched;
+pub mod voids;
 
-use crate::base::{Result, Run};
+use crate::base::{Csr, Error, Result, Run, Status, VertexId};
+use crate::complex::Origin;
+use crate::cut::classify::KnifeId;
+use crate::cut::faces::AllVertices;
+use crate::cut::surface;
+use crate::cut::triangles::{Numbering, Subdivision};
 use crate::mesh::TriMesh;
-use std::sync::Arc;
+use crate::mesh::contains::contains;
+use ground::{Ground, on_plane};
+use lines::AllSlabs;
+use pieces::Pieces;
+use std::sync::{Arc, OnceLock};
+use touched::Touched;
 
 pub use data::{CUT, EMPTY, FULL, FULL_CELL, GridCells};
 pub use lattice::Lattice;
@@ -19,8 +40,118 @@ pub struct GridOptions {
     pub known: Option<([usize; 3], bool)>,
 }
 
-/// Cuts the boxes of a block along a surface.
+/// Cuts the boxes of a block along a surface. Runs on the current rayon pool; the result does not depend on its size.
+///
+/// Errors: `TooLarge`; `Cancelled`; `Inconsistent` if the surface intersects itself in a way that shows, or if a patch lacks triangles.
 pub fn cut_grid(mesh: &Arc<TriMesh>, lattice: Lattice, options: &GridOptions, run: &mut Run) -> Result<GridCells> {
-    let _ = (options, run);
-    Ok(GridCells { mesh: mesh.clone(), planes: lattice.planes(), lattice, ..Default::default() })
+    run.stage("classify", 0.0)?;
+    let mesh = oriented::oriented(mesh, options.outside);
+    let ground = Ground::new(&mesh, &lattice)?;
+    debug_assert_eq!(ground.check(), Ok(()));
+    limit(ground.slabs.len())?;
+    run.stage("pieces", 0.1)?;
+    let mut pieces = pieces::pieces(&ground);
+    debug_assert_eq!(pieces.check(), Ok(()));
+    limit(ground.slabs.len() + pieces.point_triangle.len())?;
+    limit(pieces.corners.items.len())?;
+    run.stage("points", 0.25)?;
+    let planes = lattice.planes();
+    let mut points = points::points(&ground, &pieces, &planes);
+    run.stage("touched", 0.4)?;
+    let slabs = AllSlabs { ground: &ground, pieces: &pieces };
+    let touched = Touched::new(&lattice, slabs.each());
+    let contents = squares::Contents {
+        chords: Csr::from_pairs(ground.knives.len(), pieces.chords.iter().map(|&(k, c)| (k.at(), c))),
+        edges: Csr::from_pairs(ground.knives.len(), ground.classified.edges_on.iter().map(|&(e, k)| (k.at(), e))),
+        vertices: vertices_on(&ground),
+    };
+    pieces.chords = Vec::new();
+    run.stage("lines", 0.45)?;
+    let sub = inner_points(&ground, &pieces);
+    let vertex_edges = OnceLock::new();
+    let surface_ground = surface::Ground {
+        mesh: &mesh,
+        knives: &ground.knives,
+        classified: &ground.classified,
+        points: &ground.points,
+        sub: &sub,
+        numbering: Numbering {
+            first_edge_point: ground.first_edge_point(),
+            first_inner_point: ground.first_inner_point(),
+            first_chord_piece: (mesh.edges.len() + ground.points.edge.len()) as u32,
+        },
+        input_planes: &planes,
+        vertex_edges: &vertex_edges,
+    };
+    let known = || match options.known {
+        Some((_, inside)) => Ok(inside),
+        None => {
+            let first: [f64; 3] = std::array::from_fn(|a| lattice.nodes[a][0]);
+            Ok(contains(&mesh, &first) != options.outside)
+        }
+    };
+    let slabs = AllSlabs { ground: &ground, pieces: &pieces };
+    let lines = lines::lines(&surface_ground.with(&points.origins, &points.coords), slabs, &touched, &known)?;
+    debug_assert_eq!(lines.check(), Ok(()));
+    limit(points.origins.len() + lines.nodes.len())?;
+    run.stage("faces", 0.55)?;
+    let surface_count = points.origins.len();
+    points.origins.extend(lines.nodes.iter().map(|&n| {
+        let at = lattice.node_at(n);
+        Origin::Planes(lattice.plane(0, at[0]), lattice.plane(1, at[1]), lattice.plane(2, at[2]))
+    }));
+    points.coords.extend(lines.nodes.iter().map(|&n| {
+        let at = lattice.node_at(n);
+        [lattice.nodes[0][at[0]], lattice.nodes[1][at[1]], lattice.nodes[2][at[2]]]
+    }));
+    let surface = surface_ground.with(&points.origins[..surface_count], &points.coords[..surface_count]);
+    let all = AllVertices { surface: &surface, origins: &points.origins, coords: &points.coords };
+    let scene = squares::Scene { all: &all, slabs, lines: &lines, touched: &touched, contents: &contents };
+    let squares = squares::squares(&scene)?;
+    debug_assert_eq!(squares.check(), Ok(()));
+    limit(pieces.corners.items.len() + squares.loops.items.len())?;
+    drop(contents);
+    run.stage("cells", 0.75)?;
+    let of_box = cells::by_box(&ground, &pieces, &squares, &touched);
+    let faces =
+        cells::Faces { ground: &ground, all: &all, pieces: &pieces, squares: &squares, touched: &touched, of_box };
+    let cells = cells::cells(&faces)?;
+    debug_assert_eq!(cells.check(), Ok(()));
+    drop(faces);
+    run.stage("assemble", 0.9)?;
+    let found = assemble::Found { pieces, points, lines, squares, touched, cells };
+    let grid = assemble::assemble(ground, found);
+    run.end_stage();
+    Ok(grid)
+}
+
+/// Ids are 32-bit, and half-faces take one bit of them.
+fn limit(count: usize) -> Result<()> {
+    if count < (i32::MAX / 2) as usize {
+        return Ok(());
+    }
+    Err(Error::new(Status::TooLarge, format!("{count} elements are more than 32-bit ids can number")))
+}
+
+/// Mesh vertices on each grid plane.
+fn vertices_on(ground: &Ground) -> Csr<VertexId> {
+    let on = &ground.classified.vertex_knives;
+    let pairs = (0..on.len()).flat_map(|v| on.row(v).iter().map(move |k| (k.at(), VertexId::of(v))));
+    Csr::from_pairs(ground.knives.len(), pairs)
+}
+
+/// The points inside triangles as the stages of `cut` know them.
+fn inner_points(ground: &Ground, pieces: &Pieces) -> Subdivision {
+    let mut sub = Subdivision { point_triangle: pieces.point_triangle.clone(), ..Default::default() };
+    for s in &pieces.point_slabs {
+        let mut set = [KnifeId::default(); 3];
+        let mut count = 0;
+        for a in (0..3).filter(|&a| on_plane(s[a])) {
+            set[count] = ground.knife(a, s[a] / 2);
+            count += 1;
+        }
+        set[..count].sort_unstable();
+        sub.point_knives.push_row(&set[..count]);
+    }
+    sub
 }

@@ -3,6 +3,7 @@
 
 pub mod build;
 pub mod bvh;
+pub mod contains;
 pub mod edges;
 pub mod nesting;
 pub mod projection;

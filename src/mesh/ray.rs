@@ -217,6 +217,26 @@ impl Scene<'_> {
         Ok(best.map(|b| b.0))
     }
 
+    /// All crossings of the ray, each with its coordinate along the ray's axis, in the order in which the ray meets them. For few rays: in
+    /// rationals.
+    pub fn ordered_crossings(&self, start: &RayStart) -> Result<Vec<(Rational, Crossing)>, Degenerate> {
+        let mut found = Vec::new();
+        self.crossings(start, |_| true, &mut found)?;
+        let origin = Origin::new(self, start);
+        let mut ordered: Vec<_> =
+            found.into_iter().map(|c| (height(origin.exact(), &self.corners(c.triangle), start.axis), c)).collect();
+        ordered.sort_by(|a, b| {
+            let order = a.0.cmp(&b.0);
+            (if start.positive { order } else { order.reverse() }).then(a.1.triangle.cmp(&b.1.triangle))
+        });
+        Ok(ordered)
+    }
+
+    /// The exact point where a ray starts.
+    pub fn start_point(&self, start: &RayStart) -> [Rational; 3] {
+        Origin::new(self, start).exact().clone()
+    }
+
     fn candidates(&self, origin: &Origin, start: &RayStart, visit: impl FnMut(TriangleId)) {
         // The bounds are rounded once more: the error bound is generous enough for that. The sum of the terms may leave
         // the range of doubles by their last bit; then nothing is known.

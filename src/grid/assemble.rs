@@ -1,0 +1,170 @@
+//! Stage: everything into one set of arrays. Vertices that no face uses go; the order stays: mesh vertices, points on mesh edges, points in
+//! triangles, nodes.
+
+use super::cells::Cells;
+use super::data::{CUT, EMPTY, FULL, GridCells};
+use super::ground::{Ground, Slabs, on_plane};
+use super::lines::Lines;
+use super::pieces::Pieces;
+use super::points::Points;
+use super::squares::{Squares, sides};
+use super::touched::{Bits, Touched};
+use crate::base::{CellId, VertexId};
+use crate::complex::Origin;
+
+/// A byte per box.
+pub fn flags(ground: &Ground, touched: &Touched, lines: &Lines, cells: &Cells) -> Vec<u8> {
+    let lattice = &ground.lattice;
+    let (nx, ny) = (lattice.count(0), lattice.count(1));
+    let mut flags = vec![EMPTY; lattice.box_count()];
+    for (r, row) in flags.chunks_exact_mut(nx).enumerate() {
+        let (j, k) = (r % ny, r / ny);
+        // The lowest node tells of a box that the surface does not touch.
+        let (nodes, boxes) = (lines.inside.row(j, k), touched.along[0].row(j, k));
+        for (w, chunk) in row.chunks_mut(64).enumerate() {
+            let full = nodes[w] & !boxes[w];
+            if full == !0 {
+                chunk.fill(FULL);
+            } else if full != 0 {
+                Bits::each(&[full], |i| {
+                    if let Some(flag) = chunk.get_mut(i) {
+                        *flag = FULL;
+                    }
+                });
+            }
+        }
+    }
+    for (b, w) in touched.boxes.iter().zip(cells.box_cells.windows(2)) {
+        if w[0] < w[1] {
+            flags[b.at()] = CUT;
+        }
+    }
+    flags
+}
+
+/// The vertices that faces use: new numbers for old ones, and how many of each kind there are.
+struct Numbering {
+    number: Vec<VertexId>,
+    ends: [usize; 3],
+}
+
+fn renumber(pieces: &Pieces, squares: &Squares, starts: [usize; 3], total: usize) -> Numbering {
+    let mut number = vec![VertexId::NONE; total];
+    for v in pieces.corners.items.iter().chain(&squares.loops.items) {
+        number[v.at()] = VertexId(0);
+    }
+    let mut count = 0;
+    let mut ends = [0; 3];
+    for (v, n) in number.iter_mut().enumerate() {
+        (0..3).filter(|&i| starts[i] == v).for_each(|i| ends[i] = count as usize);
+        if n.is_some() {
+            *n = VertexId(count);
+            count += 1;
+        }
+    }
+    (0..3).filter(|&i| starts[i] == total).for_each(|i| ends[i] = count as usize);
+    Numbering { number, ends }
+}
+
+/// Keeps the items of used vertices.
+fn keep<T: Copy>(items: &mut Vec<T>, number: &[VertexId]) {
+    let mut to = 0;
+    for from in 0..items.len() {
+        if number[from].is_some() {
+            items[to] = items[from];
+            to += 1;
+        }
+    }
+    items.truncate(to);
+    items.shrink_to_fit();
+}
+
+/// What the stages found.
+pub struct Found {
+    pub pieces: Pieces,
+    pub points: Points,
+    pub lines: Lines,
+    pub squares: Squares,
+    pub touched: Touched,
+    pub cells: Cells,
+}
+
+pub fn assemble(ground: Ground, found: Found) -> GridCells {
+    let Found { mut pieces, mut points, lines, mut squares, touched, cells } = found;
+    let flags = flags(&ground, &touched, &lines, &cells);
+    let (edge_points, inner_points) = (ground.first_edge_point() as usize, ground.first_inner_point() as usize);
+    let nodes = lines.first_node as usize;
+    let numbering = renumber(&pieces, &squares, [edge_points, inner_points, nodes], points.origins.len());
+    let number = &numbering.number;
+    let bits = |s: &Slabs| (0..3).fold(0, |bits, a| bits | (on_plane(s[a]) as u8) << a);
+    let mut on_planes: Vec<u8> = Vec::with_capacity(points.origins.len());
+    on_planes.extend(ground.slabs.iter().map(bits));
+    on_planes.extend(pieces.point_slabs.iter().map(bits));
+    on_planes.resize(points.origins.len(), 7);
+    keep(&mut on_planes, number);
+    keep(&mut points.origins, number);
+    keep(&mut points.coords, number);
+    keep(&mut points.residuals, &number[edge_points..nodes]);
+    let Ground { mesh, lattice, .. } = ground;
+    drop(lines);
+    pieces.point_slabs = Vec::new();
+    pieces.point_triangle = Vec::new();
+    pieces.point_pair = Vec::new();
+
+    let walls = pieces.triangle.len();
+    let mut grid = GridCells {
+        planes: lattice.planes(),
+        flags,
+        on_planes,
+        constructed: numbering.ends[0] as u32..numbering.ends[2] as u32,
+        residuals: points.residuals,
+        extent: points.extent,
+        origins: points.origins,
+        coords: points.coords,
+        wall_triangle: pieces.triangle,
+        wall_cell: vec![CellId::NONE; walls],
+        plane_faces: squares.axis_faces.map(|f| f + walls as u32),
+        ..Default::default()
+    };
+    grid.corners = pieces.corners.items;
+    let first_corner = grid.corners.len() as u32;
+    grid.corners.append(&mut squares.loops.items);
+    grid.corners.iter_mut().for_each(|v| *v = number[v.at()]);
+    grid.loop_offsets = pieces.corners.offsets;
+    grid.loop_offsets.extend(squares.loops.offsets[1..].iter().map(|o| o + first_corner));
+    grid.face_loops = (0..=walls as u32).collect();
+    grid.face_loops.extend(squares.face_loops[1..].iter().map(|l| l + walls as u32));
+    grid.square_cells = squares
+        .node
+        .iter()
+        .enumerate()
+        .map(|(i, &node)| {
+            let axis = (i as u32 >= squares.axis_faces[1]) as usize + (i as u32 >= squares.axis_faces[2]) as usize;
+            sides(&touched, &lattice, axis, node).map(|side| side.cell())
+        })
+        .collect();
+    grid.square_node = squares.node;
+    grid.box_cells.push(0);
+    for (&b, w) in touched.boxes.iter().zip(cells.box_cells.windows(2)) {
+        if w[0] < w[1] {
+            grid.cut_boxes.push(b);
+            grid.box_cells.push(w[1]);
+        }
+    }
+    grid.cell_shells = cells.cell_shells;
+    grid.shell_faces = cells.shell_faces;
+    for c in 0..grid.cell_shells.len() - 1 {
+        let (a, b) = (grid.cell_shells[c] as usize, grid.cell_shells[c + 1] as usize);
+        let range = grid.shell_faces.offsets[a] as usize..grid.shell_faces.offsets[b] as usize;
+        for h in &grid.shell_faces.items[range] {
+            match h.face().at().checked_sub(walls) {
+                None => grid.wall_cell[h.face().at()] = CellId::of(c),
+                Some(i) => grid.square_cells[i][h.front() as usize] = CellId::of(c),
+            }
+        }
+    }
+    grid.mesh = mesh;
+    grid.lattice = lattice;
+    debug_assert!(grid.origins.iter().all(|o| !matches!(o, Origin::Mesh(v) if v.is_none())));
+    grid
+}
