@@ -35,7 +35,8 @@
 //! - `ACROSS`: neither end is inside a triangle. Two mesh vertices are two points. A point inside an edge e, the other one not on e: were e
 //!   in S, the triangle in which the chord lies would be in S, or the chord in e. So e meets S in that point alone.
 //! - Direction: which of u and v comes first by x, then y, then z, exactly; on a side of a triangle the face is on one side only. A
-//!   half-edge is thus its line, its start and its direction.
+//!   half-edge is thus its line, its start and its direction. No two half-edges of one face differ in the direction alone: the face
+//!   is on one side of C and on one side of D, and no segment has two ends in one place. So the direction is looked at once a face.
 //!
 //! *Intrinsic.* A vertex's planes and carrier are geometry, and so are S, C, D and the form. Two blocks give a shared vertex or face the same
 //! key when both know all triangles that contain the elements which hold its vertices. A block that is given every triangle that meets its
@@ -75,11 +76,11 @@ pub struct GlobalIds<'a> {
     pub plane_map: Option<&'a [PlaneId]>,
 }
 
-/// A vertex as keys see it: its carrier, and all planes through it, rising.
+/// A vertex as keys see it: its carrier, and all planes through it (a slice, or anything that holds one), rising.
 #[derive(Clone, Copy, Debug)]
-pub struct Corner<'a> {
+pub struct Corner<S> {
     pub origin: Origin,
-    pub planes: &'a [PlaneId],
+    pub planes: S,
 }
 
 /// Global names of everything that keys are made of.
@@ -234,9 +235,9 @@ impl Names<'_> {
 }
 
 /// The key of a vertex. `planes`: all planes through it, rising; read only where global ids do not rise with positions.
-pub fn vertex_key(names: &Names, vertex: Corner) -> Key {
+pub fn vertex_key<S: AsRef<[PlaneId]>>(names: &Names, vertex: &Corner<S>) -> Key {
     if !names.rising {
-        return reordered_vertex_key(names, vertex);
+        return reordered_vertex_key(names, vertex.origin, vertex.planes.as_ref());
     }
     let plane = |p| names.plane(p);
     key(match vertex.origin {
@@ -257,14 +258,14 @@ fn mesh_vertex(names: &Names, v: VertexId) -> u128 {
 
 /// An origin's planes are the first by position; here the first by name are looked for, greedily (a first basis of a
 /// matroid is found by taking whatever is independent of what was taken).
-fn reordered_vertex_key(names: &Names, vertex: Corner) -> Key {
+fn reordered_vertex_key(names: &Names, origin: Origin, planes: &[PlaneId]) -> Key {
     let mesh = names.mesh;
-    let mut sorted: Vec<PlaneId> = vertex.planes.to_vec();
+    let mut sorted: Vec<PlaneId> = planes.to_vec();
     sorted.sort_unstable_by_key(|&p| names.plane(p));
     let plane = |p: PlaneId| &names.planes[p.at()];
     let normal = |p: PlaneId| Direction::Plane(plane(p).n);
     let name = |p: Option<PlaneId>, fallback: PlaneId| names.plane(p.unwrap_or(fallback));
-    key(match vertex.origin {
+    key(match origin {
         Origin::Mesh(v) => mesh_vertex(names, v),
         Origin::Edge(e, p) => {
             // All of these planes meet the edge here: they contain its end if they contain all of it.
@@ -323,12 +324,19 @@ fn carriers(names: &Names, u: &[PlaneId], v: &[PlaneId], own: PlaneId) -> (Optio
     (both, first)
 }
 
-/// The name of a half-edge, and whether its direction has to be added to its tag. `own`: the plane on which the face lies, or
-/// `NONE`. `None` if there is no name (input that intersects itself).
-fn half_edge(names: &Names, support: SupportId, own: PlaneId, u: &Corner, v: &Corner) -> Option<(u128, bool)> {
-    let (c, d) = carriers(names, u.planes, v.planes, own);
+/// What the names of a face's half-edges have in common.
+struct Face {
+    support: SupportId,
+    /// The plane on which the face lies, or `NONE`.
+    own: PlaneId,
+}
+
+/// The name of a half-edge, and whether its direction has to be added to its tag. `None` if there is no name (input that
+/// intersects itself).
+fn half_edge<S: AsRef<[PlaneId]>>(names: &Names, face: &Face, u: &Corner<S>, v: &Corner<S>) -> Option<(u128, bool)> {
+    let (c, d) = carriers(names, u.planes.as_ref(), v.planes.as_ref(), face.own);
     let (start, by_end) = (d.unwrap_or(0), if d.is_some() { 0 } else { BY_END });
-    match (support, c) {
+    match (face.support, c) {
         (SupportId::Triangle(t), Some(c)) => Some((pack(CHORD + by_end, names.triangle(t), c, start), true)),
         (SupportId::Triangle(t), None) => {
             let side = side_of(names.mesh, t, u.origin, v.origin)?;
@@ -379,38 +387,48 @@ fn side_of(mesh: &TriMesh, t: TriangleId, u: Origin, v: Origin) -> Option<u32> {
     (0..3).find(|&k| holds(u, k) && holds(v, k)).map(|k| k as u32)
 }
 
+/// The plane that holds a whole face: the one through all its vertices. There is one at most, for coincident planes go by one
+/// id. Cost: most often the first vertices tell that there is none.
+fn plane_of<S: AsRef<[PlaneId]>>(vertices: &[VertexId], corner: &impl Fn(VertexId) -> Corner<S>) -> PlaneId {
+    let [first, rest @ ..] = vertices else { return PlaneId::NONE };
+    let holds = |v: &VertexId, p: &PlaneId| corner(*v).planes.as_ref().contains(p);
+    let whole = |p: &&PlaneId| rest.iter().all(|v| holds(v, p));
+    corner(*first).planes.as_ref().iter().find(whole).copied().unwrap_or(PlaneId::NONE)
+}
+
 /// The key of a face.
 ///
-/// `plane`: the plane that the face lies on, also if its support is a triangle; `NONE` if there is none. `loops`: its vertices in order with
-/// the face on the left (the outer loop alone, or all loops: always the same of both), read through `corner`.
+/// `support`: of a face on both a triangle and a plane, the triangle. `loops`: its vertices in order with the face on the left, seen with
+/// the support's normal up, read through `corner`; the outer loop first, then all holes or, for every face, none (the key differs).
 /// `None` only for complexes of input that intersects itself.
-pub fn face_key<'a, 'c>(
+pub fn face_key<'a, S: AsRef<[PlaneId]>>(
     names: &Names,
     support: SupportId,
-    plane: PlaneId,
-    loops: impl Iterator<Item = &'a [VertexId]>,
-    corner: impl Fn(VertexId) -> Corner<'c>,
+    loops: impl Iterator<Item = &'a [VertexId]> + Clone,
+    corner: impl Fn(VertexId) -> Corner<S>,
 ) -> Option<Key> {
-    let backwards = matches!(support, SupportId::Plane(p) if names.reversed(p));
-    let (mut least, mut directed, mut twice) = (u128::MAX, false, false);
+    let (own, backwards) = match support {
+        SupportId::Plane(p) => (p, names.reversed(p)),
+        SupportId::Triangle(_) => (plane_of(loops.clone().next()?, &corner), false),
+    };
+    let face = Face { support, own };
+    let (mut least, mut directed) = (u128::MAX, false);
     let mut ends: Option<[Origin; 2]> = None;
     for vertices in loops.filter(|l| l.len() > 1) {
         let mut from = corner(vertices[vertices.len() - 1]);
         for &v in vertices {
             let to = corner(v);
             let (u, v) = if backwards { (&to, &from) } else { (&from, &to) };
-            let (name, has_direction) = half_edge(names, support, plane, u, v)?;
-            if name <= least {
-                twice = name == least;
+            let (name, has_direction) = half_edge(names, &face, u, v)?;
+            if name < least {
                 (least, directed, ends) = (name, has_direction, Some([u.origin, v.origin]));
             }
             from = to;
         }
     }
     let [u, v] = ends?;
-    // Both directions from one start are on the boundary: the smaller of the two names.
-    let rises = twice || !directed || comes_first(names, u, v);
-    Some(key(least | (!rises as u128) << 120))
+    let falls = directed && !comes_first(names, u, v);
+    Some(key(least | (falls as u128) << 120))
 }
 
 /// Whether u comes before v by x, then y, then z.
@@ -423,7 +441,7 @@ fn comes_first(names: &Names, u: Origin, v: Origin) -> bool {
 /// The keys of all vertices. Errors: bad ids. Cost: linear.
 pub fn vertex_keys(c: &Complex, ids: &GlobalIds) -> Result<Vec<Key>> {
     let names = names(&c.mesh, &c.planes, ids)?;
-    let of = |v: usize| vertex_key(&names, corner_of(c, VertexId::of(v)));
+    let of = |v: usize| vertex_key(&names, &corner_of(c, VertexId::of(v)));
     Ok((0..c.vertex_count()).into_par_iter().with_min_len(1024).map(of).collect())
 }
 
@@ -433,13 +451,13 @@ pub fn face_keys(c: &Complex, ids: &GlobalIds) -> Result<Vec<Key>> {
     let names = names(&c.mesh, &c.planes, ids)?;
     let of = |f: usize| {
         let loops = c.loops_of(FaceId::of(f)).map(|l| &c.corner_vertices[c.corners_of(l)]);
-        face_key(&names, c.face_support[f], c.face_plane[f], loops, |v| corner_of(c, v))
+        face_key(&names, c.face_support[f], loops, |v| corner_of(c, v))
             .ok_or_else(|| Error::inconsistent(format!("the boundary of face {f} lies on no element of the input")))
     };
     (0..c.face_count()).into_par_iter().with_min_len(1024).map(of).collect()
 }
 
 #[inline(always)]
-fn corner_of(c: &Complex, v: VertexId) -> Corner<'_> {
+fn corner_of(c: &Complex, v: VertexId) -> Corner<&[PlaneId]> {
     Corner { origin: c.origins[v.at()], planes: c.vertex_planes.row(v) }
 }
