@@ -102,6 +102,15 @@
 /* Level of a log message: what the library does and why. */
 #define LAP_LOG_INFO 0
 
+/* A point outside the solid. */
+#define LAP_PLACE_OUTSIDE -1
+
+/* A point on the surface of the solid. */
+#define LAP_PLACE_SURFACE 0
+
+/* A point inside the solid. */
+#define LAP_PLACE_INSIDE 1
+
 /* A vertex of the input mesh. ids: its index in the caller's array */
 #define LAP_VERTEX_MESH 0
 
@@ -547,6 +556,23 @@ int32_t lap_mesh_volume_exact(struct lap_context *context, const struct lap_mesh
  */
 int32_t lap_mesh_euler(const struct lap_mesh *mesh,
                        int64_t *euler);
+
+/*
+ Where points are with respect to the solid, exactly. (For example: what is known about a node, for a rank that holds only a
+ part of the mesh. See lap_grid_new_patch.)
+
+ Inputs (borrowed for the call): mesh; points: 3 × count finite coordinates. places: receives count numbers LAP_PLACE_*,
+ valid until the next call with this context.
+
+ Errors: LAP_ERR_BAD_ARGUMENT with a message that names the first point that is not finite; LAP_ERR_NULL_POINTER,
+ LAP_ERR_TOO_LARGE, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: n log n in the triangles at the first call, then logarithmic
+ for each point, plus some tens of nanoseconds for each triangle whose bounding box a ray from the point towards +x meets.
+ */
+int32_t lap_mesh_locate(struct lap_context *context,
+                        const struct lap_mesh *mesh,
+                        int64_t count,
+                        const double *points,
+                        const int32_t **places);
 
 /*
  Fills cut options with the defaults.

@@ -4,6 +4,7 @@
 pub mod build;
 pub mod bvh;
 pub mod edges;
+pub mod inside;
 pub mod nesting;
 pub mod projection;
 pub mod ray;
@@ -13,6 +14,7 @@ pub mod validate;
 pub mod volume;
 
 pub use build::{MeshInput, MeshOptions, build};
+pub use inside::{Place, locate};
 pub use nesting::next_anchor;
 pub use shells::{WedgeScratch, wedge_mates};
 
