@@ -2,7 +2,6 @@
 //! rationals.
 
 #[path = "common/brute.rs"]
-#[allow(dead_code)]
 mod brute;
 mod common;
 #[path = "common/solids.rs"]
