@@ -102,6 +102,15 @@
 /* Level of a log message: what the library does and why. */
 #define LAP_LOG_INFO 0
 
+/* A point outside the solid. */
+#define LAP_PLACE_OUTSIDE -1
+
+/* A point on the surface of the solid. */
+#define LAP_PLACE_SURFACE 0
+
+/* A point inside the solid. */
+#define LAP_PLACE_INSIDE 1
+
 /* A vertex of the input mesh. ids: its index in the caller's array */
 #define LAP_VERTEX_MESH 0
 
@@ -129,6 +138,33 @@
 /* Triangles. */
 #define LAP_FACES_TRIANGLES 2
 
+/* The open box holds no fluid. */
+#define LAP_BOX_EMPTY 0
+
+/* The closed box misses the surface and is fluid: one cell, the box itself, which is not stored as a polyhedron. */
+#define LAP_BOX_FULL 1
+
+/*
+ The surface touches the closed box, and the open box holds fluid: one or more cells, stored as polyhedra. A box with a
+ wall on its side and a volume fraction of 1 is cut.
+ */
+#define LAP_BOX_CUT 2
+
+/* Where a cell is named: there is none, the face is on the boundary of the block. */
+#define LAP_CELL_NONE -1
+
+/* Where a cell is named: the one cell of a full box. */
+#define LAP_CELL_FULL -2
+
+/* Nothing is told about a node: the mesh is whole. */
+#define LAP_NODE_UNKNOWN 0
+
+/* The node is in the fluid, and not on the surface. */
+#define LAP_NODE_FLUID 1
+
+/* The node is neither in the fluid nor on the surface. */
+#define LAP_NODE_SOLID 2
+
 /*
  Vertices, edges, faces and cells. Belongs to the handle that it was borrowed from. Ids are positions in the
  arrays, from 0. Immutable: a const handle may be used from many threads at once; what is computed on demand is
@@ -152,6 +188,24 @@ typedef struct lap_context lap_context;
  threads at once.
  */
 typedef struct lap_cut lap_cut;
+
+/*
+ A block of a rectilinear grid, cut by a surface: a byte per box, polyhedra for the boxes that are cut, and on demand the
+ arrays of embedded-boundary solvers.
+
+ Boxes and nodes. A block of nx × ny × nz boxes has (nx + 1) × (ny + 1) × (nz + 1) nodes. Box (i, j, k) of the block
+ has the number i + nx (j + ny k), its low corner is node (i, j, k), and node (i, j, k) has the number
+ i + (nx + 1) (j + (ny + 1) k). All indices count from the block's low corner unless it says that they are of the whole grid.
+
+ Cells. Box b holds as many cells as the surface divides its fluid into; they are numbered by rising box. A cell is
+ bounded by faces: walls, which lie on triangles of the mesh, and faces in grid planes, which join two cells or lie on the
+ boundary of the block. Half-faces are those of lap_complex: 2 f + s, side 0 behind the face's normal, side 1 before
+ it. The normal of a wall points out of the fluid (so only side 0 of it is used), that of a face in a grid plane
+ along the axis (so side 0 belongs to the cell with the lower index).
+
+ Immutable: a const handle may be used from many threads at once; what is computed on demand is computed once.
+ */
+typedef struct lap_grid lap_grid;
 
 /*
  A closed triangle mesh that bounds a solid: the triangles of every edge balance in orientation, solids are oriented
@@ -198,6 +252,29 @@ typedef struct lap_cut_options {
      */
     int32_t check;
 } lap_cut_options;
+
+/* Options of lap_grid_new and lap_grid_new_patch; filled by lap_grid_options_init. */
+typedef struct lap_grid_options {
+    /* Size of this struct in bytes, as the caller was compiled. */
+    int32_t struct_size;
+    /*
+     Nonzero: the fluid is outside the solid, as in external flow (the grid's box minus the bodies). 0, the default: the
+     fluid is the solid's inside.
+     */
+    int32_t outside;
+    /*
+     The block: boxes block_low[a] up to, not including, block_high[a] of the whole grid along axis a (0: x, 1: y, 2: z). -1
+     as block_high[a] stands for the number of boxes. Default: 0 and -1, the whole grid.
+     */
+    int32_t block_low[3];
+    int32_t block_high[3];
+    /*
+     For a patch: what is known about node known_node (its indices in the whole grid; a node of the block): LAP_NODE_FLUID
+     or LAP_NODE_SOLID. Default: LAP_NODE_UNKNOWN.
+     */
+    int32_t known;
+    int32_t known_node[3];
+} lap_grid_options;
 
 #ifdef __cplusplus
 extern "C" {
@@ -479,6 +556,23 @@ int32_t lap_mesh_volume_exact(struct lap_context *context, const struct lap_mesh
  */
 int32_t lap_mesh_euler(const struct lap_mesh *mesh,
                        int64_t *euler);
+
+/*
+ Where points are with respect to the solid, exactly. (For example: what is known about a node, for a rank that holds only a
+ part of the mesh. See lap_grid_new_patch.)
+
+ Inputs (borrowed for the call): mesh; points: 3 × count finite coordinates. places: receives count numbers LAP_PLACE_*,
+ valid until the next call with this context.
+
+ Errors: LAP_ERR_BAD_ARGUMENT with a message that names the first point that is not finite; LAP_ERR_NULL_POINTER,
+ LAP_ERR_TOO_LARGE, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: n log n in the triangles at the first call, then logarithmic
+ for each point, plus some tens of nanoseconds for each triangle whose bounding box a ray from the point towards +x meets.
+ */
+int32_t lap_mesh_locate(struct lap_context *context,
+                        const struct lap_mesh *mesh,
+                        int64_t count,
+                        const double *points,
+                        const int32_t **places);
 
 /*
  Fills cut options with the defaults.
@@ -854,6 +948,245 @@ int32_t lap_complex_cell_volume_exact(struct lap_context *context,
                                       const struct lap_complex *complex,
                                       int32_t cell,
                                       const char **volume);
+
+/*
+ Fills grid options with the defaults.
+
+ struct_size: pass (int32_t)sizeof(lap_grid_options); no more than that is written, so a program compiled against an
+ older header keeps working.
+
+ Errors: LAP_ERR_NULL_POINTER; LAP_ERR_BAD_ARGUMENT if the size is not a multiple of 4 in 4..4096.
+ */
+int32_t lap_grid_options_init(struct lap_grid_options *options,
+                              int32_t struct_size);
+
+/*
+ Cuts a block of a rectilinear grid along the surface of a solid.
+
+ Inputs (borrowed for the call): mesh; x, y, z: the n_x, n_y, n_z coordinates of the whole grid's nodes along each axis,
+ strictly rising, at least two, each taken as the exact number that it is: they alone say where the grid's planes are,
+ and ranks that pass the same numbers get the same planes; options: or NULL for the defaults (the whole grid, fluid
+ inside the solid). Grid planes may pass through vertices and edges of the mesh, and triangles may lie in them.
+ grid: receives the handle, NULL after an error or cancel; free it with lap_grid_free. It does not need the mesh
+ handle or the context to stay alive.
+
+ Errors: LAP_ERR_BAD_ARGUMENT with a message that names the node for coordinates that are not finite or do not rise, for a
+ block that is empty or outside the grid, and for a known node outside the block or on the surface;
+ LAP_ERR_INCONSISTENT for input that intersects itself; LAP_ERR_TOO_LARGE if the block has 2147483647 nodes or more or the
+ result more elements than 32-bit indices can number; LAP_ERR_NULL_POINTER, LAP_ERR_CANCELLED, LAP_ERR_OUT_OF_MEMORY,
+ LAP_ERR_BUSY. Cost: a byte per box, else it grows with the number of cut boxes and of triangles.
+ */
+int32_t lap_grid_new(struct lap_context *context,
+                     const struct lap_mesh *mesh,
+                     int64_t n_x,
+                     const double *x,
+                     int64_t n_y,
+                     const double *y,
+                     int64_t n_z,
+                     const double *z,
+                     const struct lap_grid_options *options,
+                     struct lap_grid **grid);
+
+/*
+ Frees a grid and all that was borrowed from it, its complex included. NULL is allowed and does nothing.
+
+ Errors: none.
+ */
+int32_t lap_grid_free(struct lap_grid *grid);
+
+/*
+ The block and the whole grid.
+
+ Outputs (each may be NULL; borrowed until the grid is freed): boxes: 3 numbers, the boxes of the block along x, y, z; first:
+ 3 numbers, the indices of the block's first box in the whole grid; total: 3 numbers, the boxes of the whole grid;
+ x, y, z: boxes[0] + 1, boxes[1] + 1, boxes[2] + 1 coordinates of the block's nodes, as given (-0 as 0).
+
+ Errors: LAP_ERR_NULL_POINTER if grid is NULL. Threads: any. Cost: none.
+ */
+int32_t lap_grid_block(const struct lap_grid *grid,
+                       const int64_t **boxes,
+                       const int64_t **first,
+                       const int64_t **total,
+                       const double **x,
+                       const double **y,
+                       const double **z);
+
+/*
+ How many boxes there are of each kind, and how many elements the cut boxes have: cells; faces, of which the first so many
+ are walls; vertices.
+
+ Outputs: each may be NULL. Errors: LAP_ERR_NULL_POINTER if grid is NULL. Threads: any. Cost: one pass over the flags
+ at the first call, then none.
+ */
+int32_t lap_grid_counts(const struct lap_grid *grid,
+                        int64_t *empty,
+                        int64_t *full,
+                        int64_t *cut,
+                        int64_t *cells,
+                        int64_t *faces,
+                        int64_t *walls,
+                        int64_t *vertices);
+
+/*
+ What each box is: LAP_BOX_EMPTY, LAP_BOX_FULL or LAP_BOX_CUT.
+
+ Outputs (each may be NULL; borrowed until the grid is freed): count: the number of boxes of the block; flags: count, box
+ (i, j, k) at i + nx (j + ny k).
+
+ Errors: LAP_ERR_NULL_POINTER if grid is NULL. Threads: any. Cost: none.
+ */
+int32_t lap_grid_flags(const struct lap_grid *grid,
+                       int64_t *count,
+                       const uint8_t **flags);
+
+/*
+ The boxes that are cut, and their cells.
+
+ Outputs (each may be NULL; borrowed until the grid is freed): count: the number of cut boxes; boxes: count numbers of
+ boxes, rising; box_cells: count + 1: box boxes[i] has the cells box_cells[i] up to, not including, box_cells[i + 1].
+
+ Errors: LAP_ERR_NULL_POINTER if grid is NULL. Threads: any. Cost: none.
+ */
+int32_t lap_grid_cut_boxes(const struct lap_grid *grid,
+                           int64_t *count,
+                           const int32_t **boxes,
+                           const int32_t **box_cells);
+
+/*
+ From every box to its cells, for those who have the memory: as lap_grid_cut_boxes, but for all boxes.
+
+ Outputs (each may be NULL; borrowed until the grid is freed): count: the number of boxes; offsets: count + 1: box b has the
+ cells offsets[b] up to, not including, offsets[b + 1]; none unless it is cut.
+
+ Errors: LAP_ERR_NULL_POINTER if grid is NULL. Threads: any. Cost: 4 bytes per box and a pass over them at the first
+ call, then none.
+ */
+int32_t lap_grid_box_cells(const struct lap_grid *grid,
+                           int64_t *count,
+                           const int32_t **offsets);
+
+/*
+ One box of the block: what it is, and its cells.
+
+ i, j, k: the box, from the block's low corner. Outputs (each may be NULL): flag: LAP_BOX_*; first: its first cell, 0
+ unless it is cut; count: the number of its cells, 0 unless it is cut.
+
+ Errors: LAP_ERR_NULL_POINTER if grid is NULL, LAP_ERR_BAD_ARGUMENT for a box outside the block. Threads: any. Cost: a
+ binary search.
+ */
+int32_t lap_grid_box(const struct lap_grid *grid,
+                     int32_t i,
+                     int32_t j,
+                     int32_t k,
+                     int32_t *flag,
+                     int32_t *first,
+                     int32_t *count);
+
+/*
+ How many stages the making of the grid ran through.
+
+ Errors: LAP_ERR_NULL_POINTER. Threads: any. Cost: none.
+ */
+int32_t lap_grid_stage_count(const struct lap_grid *grid, int32_t *count);
+
+/*
+ Stage i, from 0, in the order in which they ran: its name and its time in seconds.
+
+ Outputs (each may be NULL). name is borrowed until the grid is freed.
+
+ Errors: LAP_ERR_NULL_POINTER if grid is NULL, LAP_ERR_BAD_ARGUMENT if there is no such stage. Threads: any. Cost: none.
+ */
+int32_t lap_grid_stage(const struct lap_grid *grid,
+                       int32_t i,
+                       const char **name,
+                       double *seconds);
+
+/*
+ The vertices of the cut cells: each coordinate the double nearest to the exact one (ties to even, zero as +0), in the
+ units of the input. A coordinate on a grid plane is the node's, bit for bit.
+
+ Outputs (each may be NULL; borrowed until the grid is freed): count; xyz: 3 × count; on_planes: count numbers, bit a (1, 2,
+ 4) set where the vertex lies on a grid plane across axis a (x, y, z), exactly.
+
+ Errors: LAP_ERR_NULL_POINTER if grid is NULL. Threads: any. Cost: none.
+ */
+int32_t lap_grid_vertices(const struct lap_grid *grid,
+                          int64_t *count,
+                          const double **xyz,
+                          const uint8_t **on_planes);
+
+/*
+ The faces of the cut cells, with their holes: walls first, then faces in grid planes. A face is a set of loops, the
+ outer loop first, then holes; seen with the face's normal up, the outer loop runs anticlockwise and holes run clockwise. A
+ loop is a cyclic run of corners; an isolated vertex inside a face is a hole of one corner. A wall has one loop.
+
+ Outputs (each may be NULL; borrowed until the grid is freed): count: the number of faces; face_loops: count + 1, face f has
+ the loops face_loops[f] up to, not including, face_loops[f + 1]; loop_corners: number of loops + 1, loop l has the corners
+ loop_corners[l] up to, not including, loop_corners[l + 1]; corner_vertices: the vertex of each corner.
+
+ Errors: LAP_ERR_NULL_POINTER if grid is NULL. Threads: any. Cost: none.
+ */
+int32_t lap_grid_faces(const struct lap_grid *grid,
+                       int64_t *count,
+                       const int32_t **face_loops,
+                       const int32_t **loop_corners,
+                       const int32_t **corner_vertices);
+
+/*
+ The walls: faces 0 up to count. Each is the part of a triangle of the mesh inside one box.
+
+ Outputs (each may be NULL; borrowed until the grid is freed): count: the number of walls; triangles: count: the
+ triangle that each lies on, by its place in the caller's array or, where triangle ids were given, by its id; never falling
+ in the order of places; tags: count: the tag of that triangle, NULL if the mesh has none; cells: count: the cell that the
+ wall bounds.
+
+ Errors: LAP_ERR_NULL_POINTER if grid is NULL, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: linear in the walls at the first
+ call that asks for triangles or tags, then none.
+ */
+int32_t lap_grid_walls(const struct lap_grid *grid,
+                       int64_t *count,
+                       const int64_t **triangles,
+                       const int32_t **tags,
+                       const int32_t **cells);
+
+/*
+ The faces in grid planes that bound cut cells: all after the walls. Face first + i is square i's, or a part of it. Squares
+ between full boxes, or between a full box and the boundary of the block, are not among them (lap_grid_full_faces).
+
+ Outputs (each may be NULL; borrowed until the grid is freed): first: the number of walls, hence the first face; count: the
+ number of faces in grid planes; axes: 4 faces: those across axis a (0: x, 1: y, 2: z) are axes[a] up to, not including,
+ axes[a + 1], by rising plane; nodes: count: the number of the lowest node of the square of the grid that holds the face;
+ cells: 2 × count: the cell on the lower side and the one on the upper side, LAP_CELL_FULL for that of a full box,
+ LAP_CELL_NONE at the block's boundary. Never NONE on both sides. The square of node (i, j, k) across x lies between the boxes
+ (i - 1, j, k) and (i, j, k), and so on; the normals point along the axis.
+
+ Errors: LAP_ERR_NULL_POINTER if grid is NULL. Threads: any. Cost: none.
+ */
+int32_t lap_grid_plane_faces(const struct lap_grid *grid,
+                             int64_t *first,
+                             int64_t *count,
+                             const int32_t **axes,
+                             const int32_t **nodes,
+                             const int32_t **cells);
+
+/*
+ The cut cells. A cell is bounded by shells, the outer shell first, then voids; a shell is a closed set of half-faces.
+
+ Outputs (each may be NULL; borrowed until the grid is freed): count: the number of cells; boxes: count: the number of the
+ box that holds the cell, never falling; cell_shells: count + 1, cell c has the shells cell_shells[c] up to, not including,
+ cell_shells[c + 1]; shell_faces: number of shells + 1, shell s has the half-faces half_faces[shell_faces[s]] up to, not
+ including, half_faces[shell_faces[s + 1]]; half_faces: 2 f + side, side 0 where the normal of face f points out of the cell,
+ 1 where it points into it; rising in each shell.
+
+ Errors: LAP_ERR_NULL_POINTER if grid is NULL, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: linear in the cells at the first
+ call that asks for boxes, then none.
+ */
+int32_t lap_grid_cells(const struct lap_grid *grid,
+                       int64_t *count,
+                       const int32_t **boxes,
+                       const int32_t **cell_shells,
+                       const int32_t **shell_faces,
+                       const int32_t **half_faces);
 
 #ifdef __cplusplus
 }  // extern "C"

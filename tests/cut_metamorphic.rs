@@ -4,42 +4,14 @@
 
 mod common;
 
+use common::models::{Case, permutation, small_cases as cases};
 use lapidary::base::{CellId, FaceId, Run, VertexId};
 use lapidary::complex::{Complex, moments};
 use lapidary::cut::{CutOptions, cut};
 use lapidary::exact::{Plane, rational};
 use rug::Rational;
 use std::collections::BTreeSet;
-use std::path::Path;
 use std::sync::Arc;
-
-/// A mesh and planes.
-#[derive(Clone)]
-struct Case {
-    name: String,
-    soup: common::Soup,
-    planes: Vec<Plane>,
-}
-
-fn cases() -> Vec<Case> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/cut-small");
-    let mut files: Vec<_> = std::fs::read_dir(&folder).unwrap().map(|e| e.unwrap().path()).collect();
-    files.retain(|p| p.extension().is_some_and(|e| e == "json"));
-    files.sort();
-    let read = |path: &std::path::PathBuf| {
-        let case: serde_json::Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
-        let row = |p: &serde_json::Value| {
-            let x: Vec<f64> = p.as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect();
-            Plane { n: [x[0], x[1], x[2]], d: x[3] }
-        };
-        Case {
-            name: path.file_stem().unwrap().to_string_lossy().into(),
-            soup: common::read_obj(&folder.join(case["mesh"].as_str().unwrap())).unwrap(),
-            planes: case["planes"].as_array().unwrap().iter().map(row).collect(),
-        }
-    };
-    files.iter().map(read).collect()
-}
 
 fn cut_case(case: &Case) -> Complex {
     let mesh = Arc::new(common::build_soup(&case.soup, Default::default()).unwrap());
@@ -102,16 +74,6 @@ fn nameless(c: &Complex, map: impl Fn([Rational; 3]) -> [Rational; 3], volume_sc
         (c.edge_count(), c.face_count(), c.cell_count())
     );
     result
-}
-
-/// A fixed permutation of `n` things.
-fn permutation(n: usize, mut seed: u64) -> Vec<usize> {
-    let mut order: Vec<usize> = (0..n).collect();
-    for i in (1..n).rev() {
-        seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        order.swap(i, (seed >> 33) as usize % (i + 1));
-    }
-    order
 }
 
 #[test]

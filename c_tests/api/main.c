@@ -92,5 +92,6 @@ int main(void)
     test_mesh();
     test_cut();
     test_complex();
+    test_grid();
     return check_result();
 }

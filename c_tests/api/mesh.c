@@ -255,6 +255,32 @@ static void views(lap_context *context)
     STATUS(LAP_OK, lap_mesh_free(mesh));
 }
 
+static void places(lap_context *context)
+{
+    /* A cube [0, 4]^3 with a void [1, 3]^3: in the wall, in the void, on both surfaces, on a line with edges, far away. */
+    const double points[24] = {0.5, 1, 1, 2, 2, 2, 4, 4, 4, 1, 2, 2, -1, 0, 0, -1, 1, 1, 3.5, 3, 3, 1e300, -1e300, 0};
+    const int32_t expected[8] = {LAP_PLACE_INSIDE,  LAP_PLACE_OUTSIDE, LAP_PLACE_SURFACE, LAP_PLACE_SURFACE,
+                                 LAP_PLACE_OUTSIDE, LAP_PLACE_OUTSIDE, LAP_PLACE_INSIDE,  LAP_PLACE_OUTSIDE};
+    const double bad[6] = {0, 0, 0, 1, -INFINITY, 1};
+    const int32_t *found = NULL;
+    const char *message = NULL;
+    lap_mesh *mesh = good_mesh(context, 16, hollow_xyz, 24, hollow_indices, NULL);
+
+    STATUS_IN(context, LAP_OK, lap_mesh_locate(context, mesh, 8, points, &found));
+    CHECK(found != NULL && memcmp(found, expected, sizeof expected) == 0);
+    STATUS(LAP_OK, lap_mesh_locate(context, mesh, 0, NULL, &found));
+    STATUS(LAP_ERR_BAD_ARGUMENT, lap_mesh_locate(context, mesh, 2, bad, &found));
+    STATUS(LAP_OK, lap_context_last_error(context, NULL, &message));
+    CHECK(strstr(message, "point 1") != NULL);
+    STATUS(LAP_ERR_BAD_ARGUMENT, lap_mesh_locate(context, mesh, -1, points, &found));
+    STATUS(LAP_ERR_TOO_LARGE, lap_mesh_locate(context, mesh, INT64_C(1) << 31, points, &found));
+    STATUS(LAP_ERR_NULL_POINTER, lap_mesh_locate(context, mesh, 1, NULL, &found));
+    STATUS(LAP_ERR_NULL_POINTER, lap_mesh_locate(context, mesh, 1, points, NULL));
+    STATUS(LAP_ERR_NULL_POINTER, lap_mesh_locate(context, NULL, 1, points, &found));
+    STATUS(LAP_ERR_NULL_POINTER, lap_mesh_locate(NULL, mesh, 1, points, &found));
+    STATUS(LAP_OK, lap_mesh_free(mesh));
+}
+
 void test_mesh(void)
 {
     lap_context *context = NULL;
@@ -263,5 +289,6 @@ void test_mesh(void)
     arguments(context);
     defects(context);
     views(context);
+    places(context);
     STATUS(LAP_OK, lap_context_free(context));
 }

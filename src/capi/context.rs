@@ -59,6 +59,8 @@ pub struct State {
     pub last_counts: Counts,
     /// Exact strings of the last call.
     pub strings: [CString; 3],
+    /// An array of the last call.
+    pub numbers: Vec<i32>,
 }
 
 impl State {
@@ -76,6 +78,7 @@ impl State {
             counts: Counts::ZERO,
             last_counts: Counts::ZERO,
             strings: Default::default(),
+            numbers: Vec::new(),
         }
     }
 

@@ -39,12 +39,21 @@ fn demand<'a, T: Send + Sync>(
     slot: &'a OnceLock<T>,
     compute: impl FnOnce(&Complex) -> T + Send,
 ) -> Result<&'a T, Status> {
+    on_demand(complex.threads, slot, || compute(&complex.data))
+}
+
+/// What `slot` holds; the first caller computes it, with so many threads.
+pub fn on_demand<T: Send + Sync>(
+    threads: usize,
+    slot: &OnceLock<T>,
+    compute: impl FnOnce() -> T + Send,
+) -> Result<&T, Status> {
     if let Some(known) = slot.get() {
         return Ok(known);
     }
     // Made outside of the slot's initialisation, which cannot fail but by a panic; that leaves the slot empty.
-    let pool = Pool::new(complex.threads).map_err(|error| error.status)?;
-    Ok(slot.get_or_init(|| pool.install(|| compute(&complex.data))))
+    let pool = Pool::new(threads).map_err(|error| error.status)?;
+    Ok(slot.get_or_init(|| pool.install(compute)))
 }
 
 /// A result that only input which intersects itself can make an error.

@@ -7,7 +7,9 @@ use super::view::{address, handle, input, into_handle, put, read_options, write_
 use crate::base::{Error, Status};
 use crate::complex::{exact_values, solid_euler};
 use crate::exact::round_rational;
-use crate::mesh::{self, MeshInput, MeshOptions, TriMesh};
+use crate::mesh::bvh::{Bvh, build_bvh};
+use crate::mesh::{self, MeshInput, MeshOptions, Place, TriMesh, locate};
+use rayon::prelude::*;
 use rug::Rational;
 use std::ffi::c_char;
 use std::sync::{Arc, OnceLock};
@@ -19,6 +21,7 @@ pub struct lap_mesh {
     pub mesh: Arc<TriMesh>,
     volume: OnceLock<Rational>,
     euler: OnceLock<i64>,
+    bvh: OnceLock<Bvh>,
 }
 
 impl lap_mesh {
@@ -89,9 +92,9 @@ pub unsafe extern "C" fn lap_mesh_new(
         unsafe { put(mesh, std::ptr::null_mut()) };
         let arrays = unsafe { Arrays::borrow(n_vertices, xyz, n_triangles, indices, tags, options)? };
         let built = build(state, host, &arrays)?;
-        unsafe {
-            put(mesh, into_handle(lap_mesh { mesh: Arc::new(built), volume: OnceLock::new(), euler: OnceLock::new() }))
-        };
+        let made =
+            lap_mesh { mesh: Arc::new(built), volume: OnceLock::new(), euler: OnceLock::new(), bvh: OnceLock::new() };
+        unsafe { put(mesh, into_handle(made)) };
         Ok(())
     })
 }
@@ -332,6 +335,54 @@ pub unsafe extern "C" fn lap_mesh_euler(mesh: *const lap_mesh, euler: *mut i64) 
             return Err(Status::NullPointer);
         }
         unsafe { put(euler, *mesh.euler.get_or_init(|| solid_euler(&mesh.mesh))) };
+        Ok(())
+    })
+}
+
+/// A point outside the solid.
+pub const LAP_PLACE_OUTSIDE: i32 = -1;
+/// A point on the surface of the solid.
+pub const LAP_PLACE_SURFACE: i32 = 0;
+/// A point inside the solid.
+pub const LAP_PLACE_INSIDE: i32 = 1;
+
+/// Where points are with respect to the solid, exactly. (For example: what is known about a node, for a rank that holds only a
+/// part of the mesh. See lap_grid_new_patch.)
+///
+/// Inputs (borrowed for the call): mesh; points: 3 × count finite coordinates. places: receives count numbers LAP_PLACE_*,
+/// valid until the next call with this context.
+///
+/// Errors: LAP_ERR_BAD_ARGUMENT with a message that names the first point that is not finite; LAP_ERR_NULL_POINTER,
+/// LAP_ERR_TOO_LARGE, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: n log n in the triangles at the first call, then logarithmic
+/// for each point, plus some tens of nanoseconds for each triangle whose bounding box a ray from the point towards +x meets.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn lap_mesh_locate(
+    context: *mut lap_context,
+    mesh: *const lap_mesh,
+    count: i64,
+    points: *const f64,
+    places: *mut *const i32,
+) -> i32 {
+    with_context(context, |state, host| {
+        let mesh = unsafe { handle(mesh) }.map_err(|s| Error::new(s, "mesh is NULL"))?;
+        let points: &[[f64; 3]] = unsafe { input(points.cast(), count) }
+            .map_err(|status| Error::new(status, format!("points: NULL, or a bad count: {count}")))?;
+        if places.is_null() {
+            return Err(Error::new(Status::NullPointer, "places is NULL"));
+        }
+        if let Some(i) = points.iter().flatten().position(|x| !x.is_finite()) {
+            return Err(Error::new(Status::BadArgument, format!("point {} is not finite", i / 3)));
+        }
+        state.numbers = state.run(host, |_| {
+            let bvh = mesh.bvh.get_or_init(|| build_bvh(&mesh.mesh.vertices, &mesh.mesh.triangles));
+            let place = |x| match locate(&mesh.mesh, bvh, x) {
+                Place::Outside => LAP_PLACE_OUTSIDE,
+                Place::Surface => LAP_PLACE_SURFACE,
+                Place::Inside => LAP_PLACE_INSIDE,
+            };
+            Ok(points.par_iter().map(place).collect())
+        })?;
+        unsafe { put(places, address(&state.numbers)) };
         Ok(())
     })
 }

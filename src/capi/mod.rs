@@ -16,6 +16,8 @@ pub mod context;
 pub mod cut;
 pub mod derived;
 mod fpenv;
+pub mod grid;
+pub mod grid_cells;
 mod guard;
 pub mod mesh;
 pub mod status;

@@ -5,6 +5,7 @@ pub mod build;
 pub mod bvh;
 pub mod contains;
 pub mod edges;
+pub mod inside;
 pub mod nesting;
 pub mod projection;
 pub mod ray;
@@ -14,6 +15,7 @@ pub mod validate;
 pub mod volume;
 
 pub use build::{MeshInput, MeshOptions, build};
+pub use inside::{Place, locate};
 pub use nesting::next_anchor;
 pub use shells::{WedgeScratch, wedge_mates};
 

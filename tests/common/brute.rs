@@ -88,7 +88,7 @@ pub struct Surface {
 
 impl Surface {
     /// Does the point lie on a triangle?
-    fn touches(&self, x: &P) -> bool {
+    pub fn touches(&self, x: &P) -> bool {
         self.triangles.iter().any(|t| {
             let n = Flat::through(t);
             n.value(x).is_zero()
