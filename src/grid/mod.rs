@@ -21,7 +21,8 @@ use crate::cut::faces::AllVertices;
 use crate::cut::surface;
 use crate::cut::triangles::{Numbering, Subdivision};
 use crate::mesh::TriMesh;
-use crate::mesh::contains::contains;
+use crate::mesh::bvh::build_bvh;
+use crate::mesh::inside::{Place, locate};
 use ground::{Ground, on_plane};
 use lines::AllSlabs;
 use pieces::Pieces;
@@ -45,7 +46,8 @@ pub struct GridOptions {
 /// Errors: `TooLarge`; `Cancelled`; `Inconsistent` if the surface intersects itself in a way that shows, or if a patch lacks triangles.
 pub fn cut_grid(mesh: &Arc<TriMesh>, lattice: Lattice, options: &GridOptions, run: &mut Run) -> Result<GridCells> {
     run.stage("classify", 0.0)?;
-    let mesh = oriented::oriented(mesh, options.outside);
+    let given = mesh;
+    let mesh = oriented::oriented(given, options.outside);
     let ground = Ground::new(&mesh, &lattice)?;
     debug_assert_eq!(ground.check(), Ok(()));
     limit(ground.slabs.len())?;
@@ -87,7 +89,8 @@ pub fn cut_grid(mesh: &Arc<TriMesh>, lattice: Lattice, options: &GridOptions, ru
         Some((_, inside)) => Ok(inside),
         None => {
             let first: [f64; 3] = std::array::from_fn(|a| lattice.nodes[a][0]);
-            Ok(contains(&mesh, &first) != options.outside)
+            let bvh = build_bvh(&given.vertices, &given.triangles);
+            Ok((locate(given, &bvh, &first) == Place::Inside) != options.outside)
         }
     };
     let slabs = AllSlabs { ground: &ground, pieces: &pieces };

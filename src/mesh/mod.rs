@@ -3,7 +3,6 @@
 
 pub mod build;
 pub mod bvh;
-pub mod contains;
 pub mod edges;
 pub mod inside;
 pub mod nesting;
