@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <iostream>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -199,7 +200,15 @@ int cut_mesh(const Options &options)
 
     print_table(report);
     if (!options.json.empty()) write_json(options.json, report);
-    if (!options.vtu.empty()) write_vtu(options.vtu, cells, polygons);
+    if (!options.vtu.empty()) {
+        std::vector<std::int64_t> ids(static_cast<std::size_t>(cells.cell_count));
+        std::iota(ids.begin(), ids.end(), 0);
+        write_vtu(options.vtu, cells, polygons, {}, [&](VtkFile &file) {
+            add_array(file, "cell", ids);
+            add_array(file, "component", cells.components, ids.size());
+            add_array(file, "volume", cells.volumes, ids.size());
+        });
+    }
     if (!options.exploded.empty()) {
         Outline outline{};
         must(context, lap_complex_faces(complex, nullptr, &outline.face_loops, &outline.loop_corners, nullptr,

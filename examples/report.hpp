@@ -160,17 +160,29 @@ inline void fill_counts(Report &report, lap_context *context, const lap_mesh *me
     for (std::int64_t p = 0; p < planes; ++p) report.distinct_planes += map[p] == p;
 }
 
+// Neumaier's sum: the error of the additions stays below that of the terms themselves.
+struct Sum {
+    double sum = 0, lost = 0;
+};
+
+inline void add(Sum &to, double v)
+{
+    const double next = to.sum + v;
+    to.lost += std::abs(to.sum) >= std::abs(v) ? (to.sum - next) + v : (v - next) + to.sum;
+    to.sum = next;
+}
+
+inline double value(const Sum &sum)
+{
+    return sum.sum + sum.lost;
+}
+
 inline void fill_volumes(Report &report, const double *volumes, std::int64_t count)
 {
     report.volumes.assign(volumes, volumes + count);
-    // Neumaier's sum: the error of the additions stays below that of the volumes themselves.
-    double sum = 0, lost = 0;
-    for (double v : report.volumes) {
-        const double next = sum + v;
-        lost += std::abs(sum) >= std::abs(v) ? (sum - next) + v : (v - next) + sum;
-        sum = next;
-    }
-    report.volume_sum = sum + lost;
+    Sum sum;
+    for (double v : report.volumes) add(sum, v);
+    report.volume_sum = value(sum);
     if (count == 0) return;
     report.volume_min = *std::min_element(report.volumes.begin(), report.volumes.end());
     report.volume_max = *std::max_element(report.volumes.begin(), report.volumes.end());
@@ -217,12 +229,28 @@ inline void print_decisions(const Counters &counters)
     std::printf("\n");
 }
 
+inline void print_count(const char *name, std::int64_t value)
+{
+    std::printf("  %-24s %14lld\n", name, static_cast<long long>(value));
+}
+
+inline void print_number(const char *name, double value)
+{
+    std::printf("  %-24s %14.8g\n", name, value);
+}
+
+inline void print_times(const Times &times, long repeat, long threads)
+{
+    std::printf("time, ms (fastest of %ld, %ld thread%s)\n", repeat, threads, threads == 1 ? "" : "s");
+    for (const auto &[name, seconds] : times.stages) std::printf("  %-24s %14.3f\n", name.c_str(), 1000 * seconds);
+    std::printf("  %-24s %14.3f\n", "outside the stages", 1000 * outside_stages(times));
+    std::printf("  %-24s %14.3f\n", "total", 1000 * times.total);
+}
+
 inline void print_table(const Report &r)
 {
-    auto count = [](const char *name, std::int64_t value) {
-        std::printf("  %-24s %14lld\n", name, static_cast<long long>(value));
-    };
-    auto number = [](const char *name, double value) { std::printf("  %-24s %14.8g\n", name, value); };
+    const auto count = print_count;
+    const auto number = print_number;
     std::printf("%s\n", r.mesh.c_str());
     count("vertices", r.input_vertices);
     count("triangles", r.input_triangles);
@@ -241,23 +269,39 @@ inline void print_table(const Report &r)
     number("sum over cells", r.volume_sum);
     number("smallest cell", r.volume_min);
     number("largest cell", r.volume_max);
-    std::printf("time, ms (fastest of %ld, %ld thread%s)\n", r.repeat, r.threads, r.threads == 1 ? "" : "s");
-    for (const auto &[name, seconds] : r.times.stages) std::printf("  %-24s %14.3f\n", name.c_str(), 1000 * seconds);
-    std::printf("  %-24s %14.3f\n", "outside the stages", 1000 * outside_stages(r.times));
-    std::printf("  %-24s %14.3f\n", "total", 1000 * r.times.total);
+    print_times(r.times, r.repeat, r.threads);
     if (!r.counters.empty()) print_decisions(r.counters);
     std::printf("peak memory %27.1f MB\n", static_cast<double>(r.peak_bytes) / 1e6);
     std::fflush(stdout);
 }
 
+inline nlohmann::ordered_json counters_json(const Counters &counters)
+{
+    nlohmann::ordered_json all = nlohmann::ordered_json::object();
+    for (const auto &[name, value] : counters) all[name] = value;
+    return all;
+}
+
+inline nlohmann::ordered_json times_json(const Times &times)
+{
+    // A stage may run more than once; its times add up.
+    nlohmann::ordered_json stages = nlohmann::ordered_json::object();
+    for (const auto &[name, seconds] : times.stages)
+        stages[name] = seconds + (stages.contains(name) ? stages[name].get<double>() : 0.0);
+    return {{"total", times.total}, {"stages", stages}, {"outside_stages", outside_stages(times)}};
+}
+
+inline void write_file(const std::string &path, const std::string &text)
+{
+    std::ofstream out(path);
+    out << text;
+    out.close();
+    if (!out) throw std::runtime_error(path + ": cannot be written");
+}
+
 inline void write_json(const std::string &path, const Report &r)
 {
     using nlohmann::ordered_json;
-    auto object = [](const auto &pairs) {
-        ordered_json all = ordered_json::object();
-        for (const auto &[name, value] : pairs) all[name] = value;
-        return all;
-    };
     const char *styles[] = {"holes", "bridged", "triangles"};
     ordered_json json;
     json["mesh"] = r.mesh;
@@ -274,21 +318,12 @@ inline void write_json(const std::string &path, const Report &r)
     json["polygons"] = {{"style", styles[r.style]}, {"count", r.polygons}};
     json["volume"] = {{"input", r.volume}, {"sum", r.volume_sum}, {"min", r.volume_min}, {"max", r.volume_max}};
     json["cell_volumes"] = r.volumes;
-    // A stage may run more than once; its times add up.
-    ordered_json stages = ordered_json::object();
-    for (const auto &[name, seconds] : r.times.stages)
-        stages[name] = seconds + (stages.contains(name) ? stages[name].get<double>() : 0.0);
-    json["seconds"] = {{"total", r.times.total},
-                       {"stages", stages},
-                       {"outside_stages", outside_stages(r.times)},
-                       {"with_counters", r.counted_seconds}};
-    json["statistics"] = object(r.statistics);
-    json["predicates"] = object(r.counters);
+    json["seconds"] = times_json(r.times);
+    json["seconds"]["with_counters"] = r.counted_seconds;
+    json["statistics"] = counters_json(r.statistics);
+    json["predicates"] = counters_json(r.counters);
     json["peak_bytes"] = r.peak_bytes;
-    std::ofstream out(path);
-    out << json.dump(1) << '\n';
-    out.close();
-    if (!out) throw std::runtime_error(path + ": cannot be written");
+    write_file(path, json.dump(1) + '\n');
 }
 
 } // namespace examples

@@ -131,12 +131,23 @@ void walk_outward(const Polygons &polygons, std::int32_t p, bool reversed, Visit
     for (std::int32_t i = begin; i < end; ++i) visit(polygons.vertices[reversed ? end - 1 - (i - begin) : i]);
 }
 
-// Writes the cells as VTK polyhedra with their volume, component and id. The walls of voids are listed with the other
-// faces of a cell: a VTK polyhedron knows no shells. Faces come in the style that the caller chose; VTK has no faces
-// with holes, so that is bridged (one polygon a face, the bridge walked twice) or triangles.
-inline void write_vtu(const std::string &path, const Cells &cells, const Polygons &polygons)
+// Axis-parallel boxes beside the polyhedra: points of their own, and eight of them per box in VTK's order.
+struct Hexahedra {
+    std::vector<double> points;
+    std::vector<std::int64_t> corners;
+
+    std::int64_t count() const { return static_cast<std::int64_t>(corners.size() / 8); }
+};
+
+// Writes the cells as VTK polyhedra, then the hexahedra, with the cell data that `add_arrays` adds to the file (one entry
+// for each polyhedron, then for each hexahedron). The walls of voids are listed with the other faces of a cell: a VTK
+// polyhedron knows no shells. Faces come in the style that the caller chose; VTK has no faces with holes, so that is
+// bridged (one polygon a face, the bridge walked twice) or triangles.
+template <typename AddArrays>
+void write_vtu(const std::string &path, const Cells &cells, const Polygons &polygons, const Hexahedra &hexahedra,
+               AddArrays add_arrays)
 {
-    std::vector<std::int64_t> connectivity, offsets, faces, face_offsets, ids;
+    std::vector<std::int64_t> connectivity, offsets, faces, face_offsets;
     Numbering numbering(cells.vertex_count);
     for (std::int64_t c = 0; c < cells.cell_count; ++c) {
         const std::size_t count_at = faces.size();
@@ -157,25 +168,31 @@ inline void write_vtu(const std::string &path, const Cells &cells, const Polygon
         faces[count_at] = count;
         face_offsets.push_back(static_cast<std::int64_t>(faces.size()));
         offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
-        ids.push_back(c);
     }
+    const std::uint8_t polyhedron = 42, hexahedron = 12; // VTK_POLYHEDRON, VTK_HEXAHEDRON
+    std::vector<std::uint8_t> types(static_cast<std::size_t>(cells.cell_count), polyhedron);
+    for (std::int64_t h = 0; h < hexahedra.count(); ++h) {
+        for (std::int64_t k = 8 * h; k < 8 * (h + 1); ++k) connectivity.push_back(cells.vertex_count + hexahedra.corners[k]);
+        offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
+        face_offsets.push_back(-1);
+        types.push_back(hexahedron);
+    }
+    std::vector<double> points(cells.coordinates, cells.coordinates + 3 * cells.vertex_count);
+    points.insert(points.end(), hexahedra.points.begin(), hexahedra.points.end());
 
     VtkFile file;
     begin_file(file, "UnstructuredGrid");
-    file.xml << "<Piece NumberOfPoints=\"" << cells.vertex_count << "\" NumberOfCells=\"" << cells.cell_count
+    file.xml << "<Piece NumberOfPoints=\"" << points.size() / 3 << "\" NumberOfCells=\"" << types.size()
              << "\">\n<Points>\n";
-    add_array(file, "Points", cells.coordinates, static_cast<std::size_t>(3 * cells.vertex_count), 3);
+    add_array(file, "Points", points, 3);
     file.xml << "</Points>\n<Cells>\n";
     add_array(file, "connectivity", connectivity);
     add_array(file, "offsets", offsets);
-    const std::uint8_t polyhedron = 42; // VTK_POLYHEDRON
-    add_array(file, "types", std::vector<std::uint8_t>(static_cast<std::size_t>(cells.cell_count), polyhedron));
+    add_array(file, "types", types);
     add_array(file, "faces", faces);
     add_array(file, "faceoffsets", face_offsets);
-    file.xml << "</Cells>\n<CellData Scalars=\"cell\">\n";
-    add_array(file, "cell", ids);
-    add_array(file, "component", cells.components, static_cast<std::size_t>(cells.cell_count));
-    add_array(file, "volume", cells.volumes, static_cast<std::size_t>(cells.cell_count));
+    file.xml << "</Cells>\n<CellData>\n";
+    add_arrays(file);
     file.xml << "</CellData>\n</Piece>\n";
     end_file(file, "UnstructuredGrid", path);
 }

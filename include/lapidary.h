@@ -950,6 +950,69 @@ int32_t lap_complex_cell_volume_exact(struct lap_context *context,
                                       const char **volume);
 
 /*
+ Gives the triangles of a mesh global ids, for keys: of results that are made from it afterwards. Without, the id of a
+ triangle is its index.
+
+ Inputs (borrowed for the call): ids: n_triangles numbers, one per triangle that the mesh was made of, in that order, each
+ from 0 up to, not including, 2^40, no two equal. Two meshes that hold parts of one surface give a triangle the
+ same id, and list its corners in the same order. No other call may use the mesh meanwhile.
+
+ Errors: LAP_ERR_NULL_POINTER; LAP_ERR_BAD_ARGUMENT for another number of ids, an id out of range, or two that are equal;
+ LAP_ERR_TOO_LARGE, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: linear if the ids rise, else n log n.
+ */
+int32_t lap_mesh_set_triangle_ids(struct lap_context *context,
+                                  struct lap_mesh *mesh,
+                                  int64_t n_triangles,
+                                  const int64_t *ids);
+
+/*
+ Gives the planes of a cut global ids, for keys. Without, the id of a plane is its index.
+
+ Inputs (borrowed for the call): ids: n_planes numbers, one per plane that was given to lap_cut_new, in that order, each from 0
+ up to, not including, 2^40, no two equal. Of coincident planes the smallest id stands for all. Only before the first call of
+ lap_complex_vertex_keys or lap_complex_face_keys; no other call may use the cut meanwhile.
+
+ Errors: LAP_ERR_NULL_POINTER; LAP_ERR_BAD_ARGUMENT for another number of ids, an id out of range, two that are equal, or if there
+ are keys already; LAP_ERR_TOO_LARGE, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: linear if the ids rise, else n log n.
+ */
+int32_t lap_cut_set_plane_ids(struct lap_context *context,
+                              struct lap_cut *cut,
+                              int64_t n_planes,
+                              const int64_t *ids);
+
+/*
+ The keys of the vertices: 128 bits each, made from global ids of triangles and planes alone (lap_mesh_set_triangle_ids,
+ lap_cut_set_plane_ids). No two vertices have the same key, and no vertex has that of a face. Two complexes cut from parts of
+ the same mesh by some of the same planes give a vertex that they share the same key, if both know all triangles that
+ contain it: a block that is given every triangle which meets its closed box, and the planes that bound it, does.
+
+ Outputs (each may be NULL; borrowed as the complex): count; keys: 2 × count, the first number of a pair never negative.
+ What the numbers are: the 7 high bits of the first are the kind of the point, then follow three numbers of 40 bits, as for
+ lap_complex_vertex_origins; elements of the mesh go by the smallest id of the triangles that contain them. Kinds: 0, 1, 2:
+ corner 0, 1, 2 of a triangle; 3, 4, 5: on the side from corner 0, 1, 2 of a triangle to the next, and the smallest plane that
+ crosses it there; 6: inside a triangle, on two planes; 7: on three planes.
+
+ Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: linear at the first
+ call, then none.
+ */
+int32_t lap_complex_vertex_keys(const struct lap_complex *complex,
+                                int64_t *count,
+                                const int64_t **keys);
+
+/*
+ The keys of the faces, as lap_complex_vertex_keys: no two faces have the same key, and a face that two complexes share has
+ the same key in both. A key names one edge of the face's boundary with its direction, and so the face on its left.
+
+ Outputs (each may be NULL; borrowed as the complex): count; keys: 2 × count, the first number of a pair never negative.
+
+ Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_INCONSISTENT for input that intersects itself,
+ LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: linear at the first call, then none.
+ */
+int32_t lap_complex_face_keys(const struct lap_complex *complex,
+                              int64_t *count,
+                              const int64_t **keys);
+
+/*
  Fills grid options with the defaults.
 
  struct_size: pass (int32_t)sizeof(lap_grid_options); no more than that is written, so a program compiled against an

@@ -9,14 +9,20 @@ mod common;
 use common::Soup;
 use common::models::{arbitrary, each_model, grid, incident, on_integers, permutation, small_cases};
 use common::random::Random;
-use lapidary::base::{EdgeId, FaceId, PlaneId, Run, Status, TriangleId, VertexId};
-use lapidary::complex::keys::{Corner, face_key, names, vertex_key};
-use lapidary::complex::{Complex, GlobalIds, Key, Origin, SupportId, face_keys, vertex_keys};
+use lapidary::base::{EdgeId, Error, FaceId, PlaneId, Run, Status, TriangleId, VertexId};
+use lapidary::complex::keys::{Corner, face_key, face_keys, names, vertex_key, vertex_keys};
+use lapidary::complex::{Complex, GlobalIds, Key, Origin, SupportId};
 use lapidary::cut::{Cut, CutOptions, cut};
 use lapidary::exact::Plane;
 use lapidary::mesh::{TriMesh, edges::edge_table};
 use std::collections::BTreeMap;
 use std::sync::Arc;
+
+/// Keys of vertices and of faces.
+fn keys(c: &Complex, ids: &GlobalIds) -> Result<(Vec<Key>, Vec<Key>), Error> {
+    let names = names(&c.mesh, &c.planes, ids)?;
+    Ok((vertex_keys(c, &names), face_keys(c, &names)?))
+}
 
 /// A complex told by keys alone: coordinates of each vertex, and edges of each face.
 #[derive(PartialEq)]
@@ -26,8 +32,7 @@ struct Told {
 }
 
 fn told(what: &str, c: &Complex, ids: &GlobalIds) -> Told {
-    let of_vertex = vertex_keys(c, ids).unwrap();
-    let of_face = face_keys(c, ids).unwrap();
+    let (of_vertex, of_face) = keys(c, ids).unwrap();
     let told = Told {
         vertices: of_vertex.iter().zip(&c.coords).map(|(k, x)| (*k, x.map(f64::to_bits))).collect(),
         faces: of_face.iter().enumerate().map(|(f, k)| (*k, face_edges(c, FaceId::of(f), &of_vertex))).collect(),
@@ -160,12 +165,8 @@ fn check_block(what: &str, mesh: &Arc<TriMesh>, n: usize, block: Block) {
     let ids: Vec<i64> = (0..3).flat_map(|a| at(a, 0) as i64..=at(a, 1) as i64).collect();
     let own_planes: Vec<Plane> = ids.iter().map(|&i| planes[i as usize]).collect();
     let own = cut(mesh, &own_planes, &CutOptions::default(), &mut Run::quiet()).unwrap().complex;
-    let (of_vertex, of_face) = {
-        let ids = GlobalIds { planes: Some(&ids), ..Default::default() };
-        (vertex_keys(&own, &ids).unwrap(), face_keys(&own, &ids).unwrap())
-    };
-    let (all_vertices, all_faces) =
-        (vertex_keys(&whole, &GlobalIds::default()).unwrap(), face_keys(&whole, &GlobalIds::default()).unwrap());
+    let (of_vertex, of_face) = keys(&own, &GlobalIds { planes: Some(&ids), ..Default::default() }).unwrap();
+    let (all_vertices, all_faces) = keys(&whole, &GlobalIds::default()).unwrap();
     let told = |c: &Complex, faces: &[FaceId], v: &[Key], f: &[Key]| -> BTreeMap<Key, Vec<[Key; 2]>> {
         faces.iter().map(|face| (f[face.at()], face_edges(c, *face, v))).collect()
     };
@@ -293,8 +294,7 @@ fn blocks() {
 fn layout() {
     let planes = [Plane { n: [1.0, 0.0, 0.0], d: 0.0 }, Plane { n: [0.0, 1.0, 0.0], d: 0.0 }];
     let made = run(&common::cube(-1.0, 1.0), &planes).complex;
-    let (of_vertex, of_face) =
-        (vertex_keys(&made, &GlobalIds::default()).unwrap(), face_keys(&made, &GlobalIds::default()).unwrap());
+    let (of_vertex, of_face) = keys(&made, &GlobalIds::default()).unwrap();
     let unpack = |k: Key| {
         let bits = (k.0[0] as u64 as u128) << 64 | k.0[1] as u64 as u128;
         let id = |shift: u32| (bits >> shift) as u64 & ((1 << 40) - 1);
@@ -338,9 +338,9 @@ fn layout() {
 fn ids_that_are_none() {
     let made = run(&common::cube(-1.0, 1.0), &[Plane { n: [1.0, 0.0, 0.0], d: 0.0 }]).complex;
     let refuse = |ids: GlobalIds, named: &str| {
-        let (a, b) = (vertex_keys(&made, &ids).unwrap_err(), face_keys(&made, &ids).unwrap_err());
-        assert_eq!((a.status, b.status), (Status::BadArgument, Status::BadArgument));
-        assert_eq!(a.message, named);
+        let error = keys(&made, &ids).unwrap_err();
+        assert_eq!(error.status, Status::BadArgument);
+        assert_eq!(error.message, named);
     };
     let ids: Vec<i64> = (0..12).collect();
     let with = |i: usize, id: i64| {
@@ -359,5 +359,5 @@ fn ids_that_are_none() {
     let twice = with(7, 2);
     refuse(GlobalIds { triangles: Some(&twice), ..Default::default() }, "triangles 2 and 7 have the same id, 2");
     refuse(GlobalIds { planes: Some(&[]), ..Default::default() }, "0 ids for 1 planes");
-    vertex_keys(&made, &GlobalIds { triangles: Some(&with(11, (1 << 40) - 1)), ..Default::default() }).unwrap();
+    keys(&made, &GlobalIds { triangles: Some(&with(11, (1 << 40) - 1)), ..Default::default() }).unwrap();
 }

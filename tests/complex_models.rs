@@ -6,6 +6,7 @@ mod common;
 use lapidary::base::{CellId, FaceId, Run};
 use lapidary::complex::check::check_exact;
 use lapidary::complex::exact_values::{cell_values, cell_volume, face_values, mesh_volume, tree_sum};
+use lapidary::complex::keys::{face_keys, names, vertex_keys};
 use lapidary::complex::{Complex, FaceStyle, adjacency, check, check_volumes, euler, faces_as, moments};
 use lapidary::cut::{CutOptions, cut};
 use lapidary::exact::{Plane, round_rational};
@@ -36,6 +37,9 @@ fn derive(name: &str, mesh: &Arc<TriMesh>, planes: &[Plane]) {
     timed("bridged", corners, "corner", || faces_as(&c, FaceStyle::Bridged)).unwrap();
     timed("adjacency", corners, "corner", || adjacency(&c)).unwrap();
     timed("Euler characteristic", corners, "corner", || euler(&c)).unwrap();
+    let names = names(&c.mesh, &c.planes, &Default::default()).unwrap();
+    timed("keys of vertices", c.vertex_count(), "vertex", || vertex_keys(&c, &names));
+    timed("keys of faces", c.face_count(), "face", || face_keys(&c, &names)).unwrap();
     timed("check", corners, "corner", || check(&c)).unwrap();
     timed("check of volumes", corners, "corner", || check_volumes(&c)).unwrap();
     // The exact values are compared with definitions elsewhere; here they are the oracle, on a sample.

@@ -2,6 +2,7 @@
 
 use super::derived::Derived;
 use super::guard::guard;
+use super::keys::Keyed;
 use super::view::{address, handle, index, put};
 use crate::base::{CellId, FaceId, PlaneId, Status};
 use crate::complex::{Complex, Origin, SupportId};
@@ -33,6 +34,7 @@ pub struct lap_complex {
     /// How many threads what is computed on demand may use.
     pub threads: usize,
     pub derived: Derived,
+    pub keyed: Keyed,
     origins: OnceLock<(Vec<i32>, Vec<[i32; 3]>)>,
     supports: OnceLock<(Vec<i32>, Vec<i32>)>,
 }
@@ -52,7 +54,14 @@ impl lap_complex {
         if longest.iter().any(|&n| n > i32::MAX as usize) {
             return Err(Status::TooLarge);
         }
-        Ok(Self { data, threads, derived: Derived::default(), origins: OnceLock::new(), supports: OnceLock::new() })
+        Ok(Self {
+            data,
+            threads,
+            derived: Derived::default(),
+            keyed: Keyed::default(),
+            origins: OnceLock::new(),
+            supports: OnceLock::new(),
+        })
     }
 }
 

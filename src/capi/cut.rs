@@ -82,8 +82,9 @@ pub unsafe extern "C" fn lap_cut_new(
             }
             Ok(made)
         })?;
-        let complex = lap_complex::new(made.complex, state.threads())
+        let mut complex = lap_complex::new(made.complex, state.threads())
             .map_err(|status| Error::new(status, "the result has more elements than 32-bit indices can number"))?;
+        complex.keyed.triangles = mesh.triangle_ids.clone();
         let stages = made.stages.iter().map(|(name, seconds)| (c_string(name), *seconds)).collect();
         let statistics = statistics(&state.last_counts);
         unsafe { put(cut, into_handle(lap_cut { complex, plane_map: made.plane_map, stages, statistics })) };

@@ -19,6 +19,8 @@ use std::sync::{Arc, OnceLock};
 /// handle may be used from many threads at once.
 pub struct lap_mesh {
     pub mesh: Arc<TriMesh>,
+    /// Global ids for keys; `None`: positions.
+    pub triangle_ids: Option<Arc<[i64]>>,
     volume: OnceLock<Rational>,
     euler: OnceLock<i64>,
     bvh: OnceLock<Bvh>,
@@ -92,8 +94,13 @@ pub unsafe extern "C" fn lap_mesh_new(
         unsafe { put(mesh, std::ptr::null_mut()) };
         let arrays = unsafe { Arrays::borrow(n_vertices, xyz, n_triangles, indices, tags, options)? };
         let built = build(state, host, &arrays)?;
-        let made =
-            lap_mesh { mesh: Arc::new(built), volume: OnceLock::new(), euler: OnceLock::new(), bvh: OnceLock::new() };
+        let made = lap_mesh {
+            mesh: Arc::new(built),
+            triangle_ids: None,
+            volume: OnceLock::new(),
+            euler: OnceLock::new(),
+            bvh: OnceLock::new(),
+        };
         unsafe { put(mesh, into_handle(made)) };
         Ok(())
     })

@@ -19,6 +19,7 @@ mod fpenv;
 pub mod grid;
 pub mod grid_cells;
 mod guard;
+pub mod keys;
 pub mod mesh;
 pub mod status;
 mod view;

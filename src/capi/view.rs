@@ -1,7 +1,7 @@
 //! Between our arrays and C's pointers. All raw writes of the C boundary go through `put`.
 
 use crate::base::{BoxId, CellId, ComponentId, EdgeId, FaceId, NodeId, PlaneId, Status, VertexId};
-use crate::complex::{HalfCorner, HalfFace};
+use crate::complex::{HalfCorner, HalfFace, Key};
 
 /// Writes through an output pointer, unless the caller does not want that output.
 ///
@@ -33,6 +33,8 @@ unsafe impl ReadAs<i32> for NodeId {}
 unsafe impl ReadAs<i32> for HalfFace {}
 unsafe impl ReadAs<i32> for HalfCorner {}
 unsafe impl ReadAs<i64> for i64 {}
+// A transparent pair.
+unsafe impl ReadAs<i64> for Key {}
 unsafe impl ReadAs<f64> for f64 {}
 unsafe impl ReadAs<u8> for u8 {}
 // Fixed-size groups lie flat.
@@ -69,6 +71,14 @@ pub unsafe fn input<'a, T>(start: *const T, count: i64) -> Result<&'a [T], Statu
 /// `handle` is null or a live handle of that type.
 pub unsafe fn handle<'a, T>(handle: *const T) -> Result<&'a T, Status> {
     unsafe { handle.as_ref() }.ok_or(Status::NullPointer)
+}
+
+/// Borrows a handle that the caller lets nobody else use meanwhile.
+///
+/// # Safety
+/// `handle` is null or a live handle of that type, not used by any other call.
+pub unsafe fn handle_mut<'a, T>(handle: *mut T) -> Result<&'a mut T, Status> {
+    unsafe { handle.as_mut() }.ok_or(Status::NullPointer)
 }
 
 /// Gives a handle to the caller.

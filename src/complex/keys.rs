@@ -438,20 +438,18 @@ fn comes_first(names: &Names, u: Origin, v: Origin) -> bool {
     order.unwrap_or(Ordering::Equal).is_lt()
 }
 
-/// The keys of all vertices. Errors: bad ids. Cost: linear.
-pub fn vertex_keys(c: &Complex, ids: &GlobalIds) -> Result<Vec<Key>> {
-    let names = names(&c.mesh, &c.planes, ids)?;
-    let of = |v: usize| vertex_key(&names, &corner_of(c, VertexId::of(v)));
-    Ok((0..c.vertex_count()).into_par_iter().with_min_len(1024).map(of).collect())
+/// The keys of all vertices. `names`: of the complex's mesh and planes. Cost: linear.
+pub fn vertex_keys(c: &Complex, names: &Names) -> Vec<Key> {
+    let of = |v: usize| vertex_key(names, &corner_of(c, VertexId::of(v)));
+    (0..c.vertex_count()).into_par_iter().with_min_len(1024).map(of).collect()
 }
 
-/// The keys of all faces. Errors: bad ids; `Status::Inconsistent` for a face without a name (input that intersects itself).
-/// Cost: linear.
-pub fn face_keys(c: &Complex, ids: &GlobalIds) -> Result<Vec<Key>> {
-    let names = names(&c.mesh, &c.planes, ids)?;
+/// The keys of all faces. `names`: of the complex's mesh and planes. Cost: linear.
+/// Errors: `Status::Inconsistent` for a face without a name (input that intersects itself).
+pub fn face_keys(c: &Complex, names: &Names) -> Result<Vec<Key>> {
     let of = |f: usize| {
         let loops = c.loops_of(FaceId::of(f)).map(|l| &c.corner_vertices[c.corners_of(l)]);
-        face_key(&names, c.face_support[f], loops, |v| corner_of(c, v))
+        face_key(names, c.face_support[f], loops, |v| corner_of(c, v))
             .ok_or_else(|| Error::inconsistent(format!("the boundary of face {f} lies on no element of the input")))
     };
     (0..c.face_count()).into_par_iter().with_min_len(1024).map(of).collect()

@@ -23,6 +23,6 @@ pub use adjacency::{Adjacency, HalfCorner, adjacency};
 pub use check::{check, check_volumes};
 pub use data::{Complex, HalfFace, Origin, SupportId};
 pub use euler::{euler, solid_euler};
-pub use keys::{GlobalIds, Key, face_keys, vertex_keys};
+pub use keys::{GlobalIds, Key};
 pub use moments::{Moments, moments};
 pub use styles::{FaceArrays, FaceStyle, faces_as};
