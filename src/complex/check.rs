@@ -24,6 +24,16 @@ fn ensure(holds: bool, message: impl FnOnce() -> String) -> Check {
 
 /// All structural invariants. Cost: linear, and the sorts that find duplicates.
 pub fn check(c: &Complex) -> Check {
+    for (f, cells) in c.face_cells.iter().enumerate() {
+        ensure(cells[0].is_some(), || format!("face {f}: no owner"))?;
+        let on_plane = matches!(c.face_support.get(f), Some(SupportId::Plane(_)));
+        ensure(!on_plane || cells[1].is_some(), || format!("face {f}: on a plane alone, with one cell"))?;
+    }
+    check_part(c)
+}
+
+/// The same for some of a solid's cells: a face on a plane alone may have one, on either side.
+pub fn check_part(c: &Complex) -> Check {
     arrays(c)?;
     vertices(c)?;
     let faces = corner_faces(c);
@@ -136,12 +146,12 @@ fn loops(c: &Complex) -> Check {
     unused(&vertex_used, "vertex")
 }
 
-/// Each face has an owner; a face on a triangle has no neighbour, a face on a plane alone has one; the plane of a face
+/// Each face has an owner; a face on a triangle has no neighbour; the plane of a face
 /// on a plane is that plane; its tag is its triangle's.
 fn faces_and_cells(c: &Complex) -> Check {
     for f in 0..c.face_count() {
         let [owner, neighbour] = c.face_cells[f];
-        ensure(owner.is_some(), || format!("face {f}: no owner"))?;
+        ensure(owner.is_some() || neighbour.is_some(), || format!("face {f}: no cell"))?;
         ensure(owner != neighbour, || format!("face {f}: the same cell on both sides"))?;
         let tag = match c.face_support[f] {
             SupportId::Triangle(t) => {
@@ -149,7 +159,6 @@ fn faces_and_cells(c: &Complex) -> Check {
                 if c.mesh.tags.is_empty() { 0 } else { c.mesh.tags[t.at()] }
             }
             SupportId::Plane(p) => {
-                ensure(neighbour.is_some(), || format!("face {f}: on a plane alone, with one cell"))?;
                 ensure(c.face_plane[f] == p, || format!("face {f}: lies on another plane than its support"))?;
                 0
             }

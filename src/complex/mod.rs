@@ -20,7 +20,7 @@ pub mod styles;
 pub mod triangulate;
 
 pub use adjacency::{Adjacency, HalfCorner, adjacency};
-pub use check::{check, check_volumes};
+pub use check::{check, check_part, check_volumes};
 pub use data::{Complex, HalfFace, Origin, SupportId};
 pub use euler::{euler, solid_euler};
 pub use keys::{GlobalIds, Key};

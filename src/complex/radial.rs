@@ -97,6 +97,15 @@ fn on_surface(c: &Complex, u: FaceUse) -> bool {
     matches!(c.face_support[u.face.at()], SupportId::Triangle(_))
 }
 
+/// Whether a half-face faces the inside of the solid: before a surface face is the outside. Once cells are known, they tell: of a part of a
+/// solid, a face on a plane may have a cell on one side only.
+fn is_inside(c: &Complex, u: FaceUse, h: HalfFace) -> bool {
+    match c.face_cells.get(u.face.at()) {
+        Some(cells) => cells[h.front() as usize].is_some(),
+        None => !(on_surface(c, u) && h.front()),
+    }
+}
+
 /// Calls `pair(i, hi, j, hj)` for each wedge around an edge that is inside: the uses `i` and `j` that bound it and their
 /// half-faces. `along` may say that the edge is known to run along n_P × n_Q of two planes P, Q.
 pub fn wedge_pairs(
@@ -118,6 +127,7 @@ pub fn wedge_pairs(
         return Ok(());
     }
     if uses.len() == 3
+        && uses.iter().all(|&u| on_surface(c, u) || (is_inside(c, u, u.far()) && is_inside(c, u, u.near())))
         && let Some(p) = (0..3).find(|&i| !on_surface(c, uses[i]))
     {
         let (i, j) = ((p + 1) % 3, (p + 2) % 3);
@@ -149,10 +159,7 @@ pub fn wedge_pairs(
     for (k, &i) in scratch.iter().enumerate() {
         let j = scratch[if k + 1 == scratch.len() { 0 } else { k + 1 }];
         let (from, to) = (uses[i as usize], uses[j as usize]);
-        // Before a surface face is the outside of the solid.
-        let from_inside = !(on_surface(c, from) && from.far().front());
-        let to_inside = !(on_surface(c, to) && to.near().front());
-        match (from_inside, to_inside) {
+        match (is_inside(c, from, from.far()), is_inside(c, to, to.near())) {
             (true, true) => pair(i, from.far(), j, to.near()),
             (false, false) => {}
             _ => return Err(contradiction(edge)),

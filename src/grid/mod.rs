@@ -2,6 +2,7 @@
 
 pub mod assemble;
 pub mod cells;
+pub mod check;
 pub mod data;
 pub mod ground;
 pub mod inside;
@@ -11,6 +12,7 @@ pub mod oriented;
 pub mod pieces;
 pub mod points;
 pub mod squares;
+pub mod to_complex;
 pub mod touched;
 pub mod voids;
 
@@ -31,6 +33,7 @@ use touched::Touched;
 
 pub use data::{CUT, EMPTY, FULL, FULL_CELL, GridCells};
 pub use lattice::Lattice;
+pub use to_complex::to_complex;
 
 /// What to take for fluid, and where the block's fluid is known.
 #[derive(Clone, Copy, Debug, Default)]

@@ -1,0 +1,107 @@
+//! The cut cells as an ordinary `Complex`, on demand: with edges and each vertex's planes.
+//!
+//! Full boxes are not in it, so a face towards one has a cell on one side only, and that may be the upper side: no owner then, since
+//! normals stay along the axes. Elements keep their ids. The complex is not the whole solid: `check_part` applies, `check_volumes` and the Euler
+//! characteristic of the solid do not.
+//!
+//! Cost: linear, and a sort of the corners that finds edges; about twice the memory of what is kept.
+
+use super::data::{FULL_CELL, GridCells};
+use crate::base::{CellId, ComponentId, Csr, EdgeId, FaceId, PlaneId, VertexId};
+use crate::complex::{Complex, SupportId};
+use rayon::prelude::*;
+
+/// All planes through a vertex, by rising id.
+pub fn planes_through(grid: &GridCells, v: VertexId) -> impl Iterator<Item = PlaneId> + '_ {
+    let (bits, x) = (grid.on_planes[v.at()], grid.coords[v.at()]);
+    (0..3).filter(move |a| bits >> a & 1 != 0).map(move |a| {
+        // On the plane the coordinate is exact: it is the node.
+        let node = grid.lattice.nodes[a].partition_point(|n| *n < x[a]);
+        debug_assert_eq!(grid.lattice.nodes[a][node], x[a]);
+        grid.lattice.plane(a, node)
+    })
+}
+
+/// The lowest plane that holds a whole wall.
+fn plane_of_wall(grid: &GridCells, f: FaceId) -> PlaneId {
+    let corners = grid.face_corners(f);
+    let common = corners.iter().fold(7, |bits, v| bits & grid.on_planes[v.at()]);
+    let first = grid.coords[corners[0].at()];
+    // On one plane of an axis each, but perhaps on different ones.
+    let axis = (0..3).find(|&a| common >> a & 1 != 0 && corners.iter().all(|v| grid.coords[v.at()][a] == first[a]));
+    axis.map_or(PlaneId::NONE, |a| grid.lattice.plane(a, grid.lattice.nodes[a].partition_point(|n| *n < first[a])))
+}
+
+pub fn to_complex(grid: &GridCells) -> Complex {
+    let faces = grid.face_count();
+    let walls = grid.wall_count();
+    let real = |c: CellId| if c == FULL_CELL { CellId::NONE } else { c };
+    let mut face_cells: Vec<[CellId; 2]> = grid.wall_cell.iter().map(|&c| [c, CellId::NONE]).collect();
+    face_cells.extend(grid.square_cells.iter().map(|cells| cells.map(real)));
+    let (edges, corner_edges) = find_edges(&grid.loop_offsets, &grid.corners);
+    let mut vertex_planes = Csr::with_capacity(grid.origins.len(), 2 * grid.origins.len());
+    for v in 0..grid.origins.len() {
+        vertex_planes.items.extend(planes_through(grid, VertexId::of(v)));
+        vertex_planes.end_row();
+    }
+    let tag = |f: usize| match grid.wall_triangle.get(f) {
+        Some(t) => grid.mesh.tags.get(t.at()).copied().unwrap_or(0),
+        None => 0,
+    };
+    let support = |f: FaceId| match grid.face_plane(f) {
+        None => SupportId::Triangle(grid.wall_triangle[f.at()]),
+        Some(p) => SupportId::Plane(p),
+    };
+    let plane = |f: FaceId| grid.face_plane(f).unwrap_or_else(|| plane_of_wall(grid, f));
+    let mut cell_component = vec![ComponentId(0); grid.cell_count()];
+    for f in (0..walls).rev() {
+        let shell = grid.mesh.triangle_shell[grid.wall_triangle[f].at()];
+        cell_component[grid.wall_cell[f].at()] = grid.mesh.shells[shell.at()].component;
+    }
+    Complex {
+        mesh: grid.mesh.clone(),
+        planes: grid.planes.clone(),
+        origins: grid.origins.clone(),
+        coords: grid.coords.clone(),
+        vertex_planes,
+        edges,
+        face_loops: grid.face_loops.clone(),
+        loop_offsets: grid.loop_offsets.clone(),
+        corner_vertices: grid.corners.clone(),
+        corner_edges,
+        face_support: (0..faces).map(FaceId::of).map(support).collect(),
+        face_plane: (0..faces).map(FaceId::of).map(plane).collect(),
+        face_tag: (0..faces).map(tag).collect(),
+        face_cells,
+        cell_shells: grid.cell_shells.clone(),
+        shell_faces: grid.shell_faces.clone(),
+        cell_component,
+    }
+}
+
+/// Edges by rising pair of vertices, and the edge from each corner to the next of its loop.
+fn find_edges(loop_offsets: &[u32], corners: &[VertexId]) -> (Vec<[VertexId; 2]>, Vec<EdgeId>) {
+    let mut uses: Vec<(u64, u32)> = Vec::with_capacity(corners.len());
+    for w in loop_offsets.windows(2) {
+        let row = w[0] as usize..w[1] as usize;
+        if row.len() < 2 {
+            continue;
+        }
+        for k in row.clone() {
+            let (a, b) = (corners[k], corners[if k + 1 == row.end { row.start } else { k + 1 }]);
+            uses.push(((a.min(b).0 as u64) << 32 | a.max(b).0 as u64, k as u32));
+        }
+    }
+    uses.par_sort_unstable();
+    let mut edges: Vec<[VertexId; 2]> = Vec::new();
+    let mut of_corner = vec![EdgeId::NONE; corners.len()];
+    let mut last = u64::MAX;
+    for (ends, k) in uses {
+        if ends != last {
+            last = ends;
+            edges.push([VertexId((ends >> 32) as u32), VertexId(ends as u32)]);
+        }
+        of_corner[k as usize] = EdgeId::of(edges.len() - 1);
+    }
+    (edges, of_corner)
+}
