@@ -1,15 +1,20 @@
 //! Grid: the boxes of a rectilinear grid against a surface: full, empty or cut into polyhedra.
 
 pub mod assemble;
+pub mod cell_sums;
 pub mod cells;
 pub mod data;
+pub mod exact_moments;
+pub mod fixed_point;
 pub mod ground;
 pub mod inside;
 pub mod lattice;
 pub mod lines;
+pub mod moments;
 pub mod oriented;
 pub mod pieces;
 pub mod points;
+pub mod settle;
 pub mod squares;
 pub mod touched;
 pub mod voids;
