@@ -103,7 +103,7 @@ static void bad_nodes(lap_context *context, const lap_mesh *mesh)
 
 static void views(const lap_grid *grid)
 {
-    const int64_t *boxes = NULL, *first = NULL, *total = NULL, *triangles = NULL;
+    const int64_t *boxes = NULL, *first = NULL, *total = NULL, *triangles = NULL, *keys = NULL;
     const double *x = NULL, *y = NULL, *z = NULL, *xyz = NULL;
     const uint8_t *flags = NULL, *on_planes = NULL;
     const int32_t *a = NULL, *b = NULL, *c = NULL, *d = NULL;
@@ -148,6 +148,11 @@ static void views(const lap_grid *grid)
     STATUS(LAP_ERR_NULL_POINTER, lap_grid_plane_faces(NULL, &n, &m, &a, &b, &c));
     STATUS(LAP_OK, lap_grid_cells(grid, NULL, NULL, &b, &c, &d));
     STATUS(LAP_ERR_NULL_POINTER, lap_grid_cells(NULL, &n, &a, &b, &c, &d));
+
+    STATUS(LAP_OK, lap_grid_vertex_keys(grid, NULL, NULL));
+    STATUS(LAP_ERR_NULL_POINTER, lap_grid_vertex_keys(NULL, &n, &keys));
+    STATUS(LAP_OK, lap_grid_face_keys(grid, NULL, NULL));
+    STATUS(LAP_ERR_NULL_POINTER, lap_grid_face_keys(NULL, &n, &keys));
 
     STATUS(LAP_OK, lap_grid_stage_count(grid, &count));
     STATUS(LAP_ERR_BAD_ARGUMENT, lap_grid_stage(grid, count, &name, &seconds));

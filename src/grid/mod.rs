@@ -8,6 +8,7 @@ pub mod exact_moments;
 pub mod fixed_point;
 pub mod ground;
 pub mod inside;
+pub mod keys;
 pub mod lattice;
 pub mod lines;
 pub mod moments;
@@ -35,6 +36,7 @@ use std::sync::{Arc, OnceLock};
 use touched::Touched;
 
 pub use data::{CUT, EMPTY, FULL, FULL_CELL, GridCells};
+pub use keys::keys;
 pub use lattice::Lattice;
 
 /// What to take for fluid, and where the block's fluid is known.
