@@ -2,6 +2,7 @@
 #include "api.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* Uneven nodes around the cube [0, 2]^3; some of its sides lie in grid planes. */
@@ -101,9 +102,284 @@ static void bad_nodes(lap_context *context, const lap_mesh *mesh)
     CHECK(has_message(context));
 }
 
+static int is_csr(const int32_t *offsets, int64_t rows, int64_t items)
+{
+    int64_t i;
+    if (offsets == NULL || offsets[0] != 0 || offsets[rows] != items) return 0;
+    for (i = 0; i < rows; ++i) {
+        if (offsets[i] > offsets[i + 1]) return 0;
+    }
+    return 1;
+}
+
+static int in_range(const int32_t *ids, int64_t count, int64_t low, int64_t high)
+{
+    int64_t i;
+    for (i = 0; i < count; ++i) {
+        if (ids[i] < low || ids[i] >= high) return 0;
+    }
+    return 1;
+}
+
+/* Boxes: flags, counts and the three ways to the cells of a box agree. */
+static void boxes_and_cells(const lap_grid *grid, int64_t nx, int64_t ny, int64_t nz)
+{
+    const uint8_t *flags = NULL;
+    const int32_t *boxes = NULL, *box_cells = NULL, *offsets = NULL, *cell_boxes = NULL;
+    int64_t n[7], count = -1, cut = -1, tally[3] = {0, 0, 0}, b, at = 0, c;
+    int32_t flag = -1, first = -1, parts = -1;
+
+    STATUS(LAP_OK, lap_grid_counts(grid, &n[0], &n[1], &n[2], &n[3], &n[4], &n[5], &n[6]));
+    STATUS(LAP_OK, lap_grid_flags(grid, &count, &flags));
+    CHECK(count == nx * ny * nz);
+    STATUS(LAP_OK, lap_grid_cut_boxes(grid, &cut, &boxes, &box_cells));
+    CHECK(cut == n[2] && is_csr(box_cells, cut, n[3]));
+    STATUS(LAP_OK, lap_grid_box_cells(grid, &count, &offsets));
+    CHECK(count == nx * ny * nz && is_csr(offsets, count, n[3]));
+    STATUS(LAP_OK, lap_grid_cells(grid, &count, &cell_boxes, NULL, NULL, NULL));
+    CHECK(count == n[3]);
+    for (b = 0; b < nx * ny * nz; ++b) {
+        CHECK(flags[b] <= LAP_BOX_CUT);
+        ++tally[flags[b]];
+        STATUS(LAP_OK, lap_grid_box(grid, (int32_t)(b % nx), (int32_t)(b / nx % ny), (int32_t)(b / (nx * ny)), &flag,
+                                    &first, &parts));
+        CHECK(flag == flags[b] && parts == offsets[b + 1] - offsets[b]);
+        if (flag != LAP_BOX_CUT) {
+            CHECK(parts == 0 && first == 0);
+            continue;
+        }
+        CHECK(boxes[at] == b && box_cells[at] == first && offsets[b] == first && parts > 0);
+        for (c = first; c < first + parts; ++c) CHECK(cell_boxes[c] == b);
+        ++at;
+    }
+    CHECK(at == cut && tally[0] == n[0] && tally[1] == n[1] && tally[2] == n[2]);
+}
+
+/* Faces, vertices and cells hang together. */
+static void structure(const lap_grid *grid, int64_t n_triangles, const int32_t *triangle_tags)
+{
+    const double *xyz = NULL, *nodes[3];
+    const int64_t *boxes = NULL, *triangles = NULL;
+    const uint8_t *on_planes = NULL, *flags = NULL;
+    const int32_t *face_loops = NULL, *loop_corners = NULL, *corners = NULL, *tags = NULL, *wall_cells = NULL;
+    const int32_t *axes = NULL, *square = NULL, *sides = NULL, *cell_shells = NULL, *shell_faces = NULL, *half_faces = NULL;
+    int64_t n_cells, n_faces, n_walls, n_vertices, count = -1, first = -1, i, c, f, k, axis, half_count;
+    int32_t *owner;
+
+    STATUS(LAP_OK, lap_grid_counts(grid, NULL, NULL, NULL, &n_cells, &n_faces, &n_walls, &n_vertices));
+    STATUS(LAP_OK, lap_grid_block(grid, &boxes, NULL, NULL, &nodes[0], &nodes[1], &nodes[2]));
+    STATUS(LAP_OK, lap_grid_flags(grid, NULL, &flags));
+    STATUS(LAP_OK, lap_grid_vertices(grid, &count, &xyz, &on_planes));
+    CHECK(count == n_vertices);
+    for (i = 0; i < 3 * count; ++i) {
+        int on = 0;
+        CHECK(!(xyz[i] == 0 && signbit(xyz[i])));
+        for (k = 0; k <= boxes[i % 3]; ++k) on |= nodes[i % 3][k] == xyz[i];
+        if (on_planes[i / 3] >> i % 3 & 1) CHECK(on);
+    }
+
+    STATUS(LAP_OK, lap_grid_faces(grid, &count, &face_loops, &loop_corners, &corners));
+    CHECK(count == n_faces && is_csr(face_loops, count, face_loops[count]));
+    CHECK(is_csr(loop_corners, face_loops[count], loop_corners[face_loops[count]]));
+    CHECK(in_range(corners, loop_corners[face_loops[count]], 0, n_vertices));
+    STATUS(LAP_OK, lap_grid_walls(grid, &count, &triangles, &tags, &wall_cells));
+    CHECK(count == n_walls && in_range(wall_cells, count, 0, n_cells));
+    CHECK(count == 0 || (tags != NULL) == (triangle_tags != NULL));
+    for (i = 0; i < count; ++i) {
+        CHECK(triangles[i] >= 0 && triangles[i] < n_triangles && (i == 0 || triangles[i - 1] <= triangles[i]));
+        if (tags != NULL) CHECK(tags[i] == triangle_tags[triangles[i]]);
+    }
+    STATUS(LAP_OK, lap_grid_plane_faces(grid, &first, &count, &axes, &square, &sides));
+    CHECK(first == n_walls && first + count == n_faces && axes[0] == first && axes[3] == n_faces);
+    CHECK(in_range(sides, 2 * count, LAP_CELL_FULL, n_cells));
+
+    /* Each cell uses the half-faces that name it, once; no other half-face is used. */
+    STATUS(LAP_OK, lap_grid_cells(grid, &count, NULL, &cell_shells, &shell_faces, &half_faces));
+    half_count = shell_faces[cell_shells[count]];
+    CHECK(count == n_cells && is_csr(cell_shells, count, cell_shells[count]));
+    CHECK(is_csr(shell_faces, cell_shells[count], half_count) && in_range(half_faces, half_count, 0, 2 * n_faces));
+    owner = (int32_t *)malloc(2 * (size_t)n_faces * sizeof *owner + 1);
+    for (i = 0; i < 2 * n_faces; ++i) owner[i] = LAP_CELL_NONE;
+    for (c = 0; c < count; ++c) {
+        CHECK(cell_shells[c] < cell_shells[c + 1]);
+        for (i = shell_faces[cell_shells[c]]; i < shell_faces[cell_shells[c + 1]]; ++i) {
+            CHECK(owner[half_faces[i]] == LAP_CELL_NONE);
+            owner[half_faces[i]] = (int32_t)c;
+        }
+    }
+    for (f = 0; f < n_walls; ++f) CHECK(owner[2 * f] == wall_cells[f] && owner[2 * f + 1] == LAP_CELL_NONE);
+    for (axis = 0; axis < 3; ++axis) {
+        for (f = axes[axis]; f < axes[axis + 1]; ++f) {
+            /* The square's corner lies on the face's plane, and so do all its corners. */
+            const int64_t node = square[f - first], nx = boxes[0] + 1, ny = boxes[1] + 1;
+            const int64_t at[3] = {node % nx, node / nx % ny, node / (nx * ny)};
+            CHECK(at[0] <= boxes[0] && at[1] <= boxes[1] && at[2] <= boxes[2]);
+            for (i = loop_corners[face_loops[f]]; i < loop_corners[face_loops[f + 1]]; ++i) {
+                CHECK(xyz[3 * corners[i] + axis] == nodes[axis][at[axis]] && (on_planes[corners[i]] >> axis & 1));
+            }
+            for (i = 0; i < 2; ++i) {
+                const int32_t side = sides[2 * (f - first) + i];
+                int64_t low[3] = {at[0], at[1], at[2]};
+                CHECK(owner[2 * f + i] == (side < 0 ? LAP_CELL_NONE : side));
+                if (side != LAP_CELL_FULL) continue;
+                low[axis] -= i == 0;
+                CHECK(low[axis] >= 0 && flags[low[0] + boxes[0] * (low[1] + boxes[1] * low[2])] == LAP_BOX_FULL);
+            }
+            CHECK(sides[2 * (f - first)] >= 0 || sides[2 * (f - first) + 1] >= 0);
+        }
+    }
+    free(owner);
+}
+
+/* Keys are distinct. */
+static void distinct_keys(const lap_grid *grid)
+{
+    const int64_t *keys[2];
+    int64_t count[2], n_faces, n_vertices, of, i, k;
+    STATUS(LAP_OK, lap_grid_counts(grid, NULL, NULL, NULL, NULL, &n_faces, NULL, &n_vertices));
+    STATUS(LAP_OK, lap_grid_vertex_keys(grid, &count[0], &keys[0]));
+    STATUS(LAP_OK, lap_grid_face_keys(grid, &count[1], &keys[1]));
+    CHECK(count[0] == n_vertices && count[1] == n_faces);
+    for (of = 0; of < 2; ++of) {
+        for (i = 0; i < count[of]; ++i) {
+            CHECK(keys[of][2 * i] >= 0);
+            for (k = 0; k < i; ++k) {
+                CHECK(keys[of][2 * i] != keys[of][2 * k] || keys[of][2 * i + 1] != keys[of][2 * k + 1]);
+            }
+        }
+    }
+}
+
+/* Every wall and every cell of a block occurs in the whole grid under the same keys and coordinates: the block's boxes are cut
+   as those of the whole are. Returns how many faces were found. */
+static int64_t faces_of_block(const lap_grid *whole, const lap_grid *block)
+{
+    const int64_t *a = NULL, *b = NULL, *va = NULL, *vb = NULL;
+    const double *xa = NULL, *xb = NULL;
+    const int32_t *la = NULL, *ca = NULL, *ia = NULL, *lb = NULL, *cb = NULL, *ib = NULL;
+    int64_t na = 0, nb = 0, f, g, k, found = 0;
+    STATUS(LAP_OK, lap_grid_face_keys(whole, &na, &a));
+    STATUS(LAP_OK, lap_grid_face_keys(block, &nb, &b));
+    STATUS(LAP_OK, lap_grid_vertex_keys(whole, NULL, &va));
+    STATUS(LAP_OK, lap_grid_vertex_keys(block, NULL, &vb));
+    STATUS(LAP_OK, lap_grid_vertices(whole, NULL, &xa, NULL));
+    STATUS(LAP_OK, lap_grid_vertices(block, NULL, &xb, NULL));
+    STATUS(LAP_OK, lap_grid_faces(whole, NULL, &la, &ca, &ia));
+    STATUS(LAP_OK, lap_grid_faces(block, NULL, &lb, &cb, &ib));
+    for (g = 0; g < nb; ++g) {
+        for (f = 0; f < na && (a[2 * f] != b[2 * g] || a[2 * f + 1] != b[2 * g + 1]); ++f) {
+        }
+        CHECK(f < na);
+        if (f == na) continue;
+        ++found;
+        CHECK(la[f + 1] - la[f] == lb[g + 1] - lb[g] && ca[la[f + 1]] - ca[la[f]] == cb[lb[g + 1]] - cb[lb[g]]);
+        for (k = 0; k < cb[lb[g + 1]] - cb[lb[g]]; ++k) {
+            const int32_t v = ia[ca[la[f]] + k], w = ib[cb[lb[g]] + k];
+            CHECK(memcmp(va + 2 * v, vb + 2 * w, 2 * sizeof *va) == 0);
+            CHECK(memcmp(xa + 3 * v, xb + 3 * w, 3 * sizeof *xa) == 0);
+        }
+    }
+    return found;
+}
+
+/* The cube inside and outside, in known numbers; and in blocks. */
+static void known_solid(lap_context *context, const lap_mesh *mesh, const int32_t *tags)
+{
+    lap_grid_options o;
+    lap_grid *grid = NULL, *block = NULL;
+    const int64_t *first = NULL;
+    int64_t n[7], found, low;
+
+    STATUS_IN(context, LAP_OK, make(context, mesh, NULL, &grid));
+    if (grid == NULL) return;
+    STATUS(LAP_OK, lap_grid_counts(grid, &n[0], &n[1], &n[2], &n[3], &n[4], &n[5], &n[6]));
+    /* x across [0, 0.75] and [0.75, 2], y across [0, 0.5] and [0.5, 2], z across [0, 1] and [1, 2]: all eight are cut. */
+    CHECK(n[0] == 10 && n[1] == 0 && n[2] == 8 && n[3] == 8 && n[4] - n[5] == 12);
+    boxes_and_cells(grid, 3, 3, 2);
+    structure(grid, 12, tags);
+    distinct_keys(grid);
+    for (low = found = 0; low < 3; ++low) {
+        STATUS(LAP_OK, lap_grid_options_init(&o, (int32_t)sizeof o));
+        o.block_low[0] = (int32_t)low;
+        o.block_high[0] = (int32_t)low + 1;
+        STATUS_IN(context, LAP_OK, make(context, mesh, &o, &block));
+        if (block == NULL) return;
+        STATUS(LAP_OK, lap_grid_block(block, NULL, &first, NULL, NULL, NULL, NULL));
+        CHECK(first[0] == low);
+        boxes_and_cells(block, 1, 3, 2);
+        structure(block, 12, tags);
+        found += faces_of_block(grid, block);
+        STATUS(LAP_OK, lap_grid_free(block));
+    }
+    /* The four faces across x = 0.75 are in two blocks. */
+    CHECK(found == n[4] + 4);
+    STATUS(LAP_OK, lap_grid_free(grid));
+
+    STATUS(LAP_OK, lap_grid_options_init(&o, (int32_t)sizeof o));
+    o.outside = 1;
+    STATUS_IN(context, LAP_OK, make(context, mesh, &o, &grid));
+    if (grid == NULL) return;
+    STATUS(LAP_OK, lap_grid_counts(grid, &n[0], &n[1], &n[2], &n[3], NULL, NULL, NULL));
+    /* One box has no fluid; the box with i = 1 and j = 1 above it has some, beyond z = 2. */
+    CHECK(n[0] == 1 && n[1] == 0 && n[2] == 17 && n[3] == 17);
+    boxes_and_cells(grid, 3, 3, 2);
+    structure(grid, 12, tags);
+    distinct_keys(grid);
+    STATUS(LAP_OK, lap_grid_free(grid));
+}
+
+/* Full boxes, and a box in two parts: a cube with a void, in a grid of 4 across each axis that a plate of fluid crosses. */
+static void hollow(lap_context *context)
+{
+    const double even[6] = {-0.5, 0.5, 1.5, 2.5, 3.5, 4.5}, coarse[3] = {0.25, 0.75, 3.75}, wide[2] = {0.25, 3.75};
+    lap_mesh *mesh = good_mesh(context, 16, hollow_xyz, 24, hollow_indices, NULL);
+    lap_grid_options o;
+    lap_grid *grid = NULL;
+    int64_t n[7];
+
+    /* The middle box is in the void; those around it are cut by its walls, the outer ones by the outer walls. */
+    STATUS_IN(context, LAP_OK, lap_grid_new(context, mesh, 6, even, 6, even, 6, even, NULL, &grid));
+    if (grid == NULL) return;
+    STATUS(LAP_OK, lap_grid_counts(grid, &n[0], &n[1], &n[2], &n[3], &n[4], &n[5], &n[6]));
+    CHECK(n[0] == 1 && n[1] == 0 && n[2] == 124 && n[3] == 124);
+    boxes_and_cells(grid, 5, 5, 5);
+    structure(grid, 24, NULL);
+    STATUS(LAP_OK, lap_grid_free(grid));
+
+    /* One row of boxes through wall, void and wall; the last box holds void, and the wall beyond and around it. Outside, the
+       void is the fluid: one cell; the first box is in the wall. */
+    STATUS_IN(context, LAP_OK, lap_grid_new(context, mesh, 3, coarse, 2, wide, 2, wide, NULL, &grid));
+    if (grid == NULL) return;
+    STATUS(LAP_OK, lap_grid_counts(grid, &n[0], &n[1], &n[2], &n[3], NULL, NULL, NULL));
+    CHECK(n[0] == 0 && n[1] == 1 && n[2] == 1 && n[3] == 1);
+    structure(grid, 24, NULL);
+    STATUS(LAP_OK, lap_grid_free(grid));
+    STATUS(LAP_OK, lap_grid_options_init(&o, (int32_t)sizeof o));
+    o.outside = 1;
+    STATUS_IN(context, LAP_OK, lap_grid_new(context, mesh, 3, coarse, 2, wide, 2, wide, &o, &grid));
+    if (grid == NULL) return;
+    STATUS(LAP_OK, lap_grid_counts(grid, &n[0], &n[1], &n[2], &n[3], NULL, NULL, NULL));
+    CHECK(n[0] == 1 && n[1] == 0 && n[2] == 1 && n[3] == 1);
+    structure(grid, 24, NULL);
+    STATUS(LAP_OK, lap_grid_free(grid));
+
+    /* A box that crosses the cube's upper wall and reaches into the void and out of the cube: two parts of fluid outside. */
+    {
+        const double across[2] = {1.5, 2.5}, up[2] = {2.5, 4.5};
+        int32_t flag = -1, first = -1, parts = -1;
+        STATUS_IN(context, LAP_OK, lap_grid_new(context, mesh, 2, across, 2, across, 2, up, &o, &grid));
+        if (grid == NULL) return;
+        STATUS(LAP_OK, lap_grid_box(grid, 0, 0, 0, &flag, &first, &parts));
+        CHECK(flag == LAP_BOX_CUT && first == 0 && parts == 2);
+        structure(grid, 24, NULL);
+        STATUS(LAP_OK, lap_grid_free(grid));
+    }
+    STATUS(LAP_OK, lap_mesh_free(mesh));
+}
+
 static void views(const lap_grid *grid)
 {
-    const int64_t *boxes = NULL, *first = NULL, *total = NULL, *triangles = NULL;
+    const int64_t *boxes = NULL, *first = NULL, *total = NULL, *triangles = NULL, *keys = NULL;
     const double *x = NULL, *y = NULL, *z = NULL, *xyz = NULL;
     const uint8_t *flags = NULL, *on_planes = NULL;
     const int32_t *a = NULL, *b = NULL, *c = NULL, *d = NULL;
@@ -149,6 +425,11 @@ static void views(const lap_grid *grid)
     STATUS(LAP_OK, lap_grid_cells(grid, NULL, NULL, &b, &c, &d));
     STATUS(LAP_ERR_NULL_POINTER, lap_grid_cells(NULL, &n, &a, &b, &c, &d));
 
+    STATUS(LAP_OK, lap_grid_vertex_keys(grid, NULL, NULL));
+    STATUS(LAP_ERR_NULL_POINTER, lap_grid_vertex_keys(NULL, &n, &keys));
+    STATUS(LAP_OK, lap_grid_face_keys(grid, NULL, NULL));
+    STATUS(LAP_ERR_NULL_POINTER, lap_grid_face_keys(NULL, &n, &keys));
+
     STATUS(LAP_OK, lap_grid_stage_count(grid, &count));
     STATUS(LAP_ERR_BAD_ARGUMENT, lap_grid_stage(grid, count, &name, &seconds));
     STATUS(LAP_ERR_BAD_ARGUMENT, lap_grid_stage(grid, -1, &name, &seconds));
@@ -168,6 +449,8 @@ void test_grid(void)
     mesh = good_mesh(context, 8, cube_xyz, 12, cube_indices, cube_tags);
     options(context, mesh);
     bad_nodes(context, mesh);
+    known_solid(context, mesh, cube_tags);
+    hollow(context);
     STATUS(LAP_OK, lap_grid_options_init(&o, (int32_t)sizeof o));
     o.block_low[0] = 1;
     STATUS_IN(context, LAP_OK, make(context, mesh, &o, &grid));

@@ -59,6 +59,8 @@ pub struct lap_grid {
     pub data: GridCells,
     /// How many threads what is computed on demand may use.
     pub threads: usize,
+    /// Global ids of the mesh's triangles; `None`: positions.
+    pub triangle_ids: Option<Arc<[i64]>>,
     shape: Shape,
     stages: Vec<(CString, f64)>,
     /// Empty, full and cut boxes.
@@ -97,6 +99,7 @@ impl lap_grid {
         Ok(Self {
             data,
             threads,
+            triangle_ids: None,
             shape,
             stages: stages.iter().map(|(name, seconds)| (c_string(name), *seconds)).collect(),
             tally: OnceLock::new(),
@@ -184,7 +187,8 @@ pub unsafe extern "C" fn lap_grid_new(
         unsafe { put(grid, std::ptr::null_mut()) };
         let mesh = unsafe { handle(mesh) }.map_err(|status| Error::new(status, "mesh is NULL"))?;
         let order = unsafe { Order::read([n_x, n_y, n_z], [x, y, z], options)? };
-        let made = make(state, host, order, |_| Ok(mesh.mesh.clone()))?;
+        let mut made = make(state, host, order, |_| Ok(mesh.mesh.clone()))?;
+        made.triangle_ids = mesh.triangle_ids.clone();
         unsafe { put(grid, into_handle(made)) };
         Ok(())
     })

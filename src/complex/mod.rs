@@ -4,6 +4,10 @@
 pub mod adjacency;
 pub mod bridge;
 pub mod certified;
+pub mod certify;
+pub mod certify_check;
+pub mod certify_repair;
+pub mod certify_work;
 pub mod check;
 pub mod data;
 pub mod ears;
@@ -20,6 +24,7 @@ pub mod styles;
 pub mod triangulate;
 
 pub use adjacency::{Adjacency, HalfCorner, adjacency};
+pub use certify::{Certified, CertifyOptions, certify};
 pub use check::{check, check_part, check_volumes};
 pub use data::{Complex, HalfFace, Origin, SupportId};
 pub use euler::{euler, solid_euler};

@@ -1,16 +1,22 @@
 //! Grid: the boxes of a rectilinear grid against a surface: full, empty or cut into polyhedra.
 
 pub mod assemble;
+pub mod cell_sums;
 pub mod cells;
 pub mod check;
 pub mod data;
+pub mod exact_moments;
+pub mod fixed_point;
 pub mod ground;
 pub mod inside;
+pub mod keys;
 pub mod lattice;
 pub mod lines;
+pub mod moments;
 pub mod oriented;
 pub mod pieces;
 pub mod points;
+pub mod settle;
 pub mod squares;
 pub mod to_complex;
 pub mod touched;
@@ -32,6 +38,7 @@ use std::sync::{Arc, OnceLock};
 use touched::Touched;
 
 pub use data::{CUT, EMPTY, FULL, FULL_CELL, GridCells};
+pub use keys::keys;
 pub use lattice::Lattice;
 pub use to_complex::to_complex;
 

@@ -227,12 +227,38 @@ impl Bvh {
     }
 
     /// Visits all pairs of triangles whose boxes meet, each pair once, until `visit` returns false.
-    pub fn meeting_pairs(&self, mut visit: impl FnMut(TriangleId, TriangleId) -> bool) {
+    pub fn meeting_pairs(&self, visit: impl FnMut(TriangleId, TriangleId) -> bool) {
+        self.pairs_among(|_, _| true, visit);
+    }
+
+    /// The pairs of [`Bvh::meeting_pairs`] of which one triangle at least is `marked`. What holds no marked triangle is
+    /// passed by whole nodes, so the cost grows with the marked ones.
+    pub fn meeting_marked_pairs(&self, marked: &[bool], mut visit: impl FnMut(TriangleId, TriangleId) -> bool) {
+        let mut has = vec![false; self.nodes.len()];
+        for i in (0..self.nodes.len()).rev() {
+            let node = &self.nodes[i];
+            let (first, count) = (node.first as usize, node.count as usize);
+            has[i] = match count {
+                0 => has[first] || has[first + 1],
+                _ => self.ids[first..first + count].iter().any(|t| marked[t.at()]),
+            };
+        }
+        self.pairs_among(
+            |a, b| has[a as usize] || has[b as usize],
+            |a, b| !(marked[a.at()] || marked[b.at()]) || visit(a, b),
+        );
+    }
+
+    /// Pairs below those pairs of nodes that are `wanted`.
+    fn pairs_among(&self, wanted: impl Fn(u32, u32) -> bool, mut visit: impl FnMut(TriangleId, TriangleId) -> bool) {
         let mut stack: Vec<(u32, u32)> = Vec::new();
         if !self.nodes.is_empty() {
             stack.push((0, 0));
         }
         while let Some((a, b)) = stack.pop() {
+            if !wanted(a, b) {
+                continue;
+            }
             let (p, q) = (&self.nodes[a as usize], &self.nodes[b as usize]);
             if a == b {
                 if p.count == 0 {
