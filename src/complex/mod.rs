@@ -24,7 +24,7 @@ pub mod styles;
 pub mod triangulate;
 
 pub use adjacency::{Adjacency, HalfCorner, adjacency};
-pub use certify::{Certified, CertifyOptions, certify};
+pub use certify::{CertifiedComplex, CertifyOptions, CertifyReport, certify};
 pub use check::{check, check_part, check_volumes};
 pub use data::{Complex, HalfFace, Origin, SupportId};
 pub use euler::{euler, solid_euler};
