@@ -166,6 +166,20 @@
 #define LAP_NODE_SOLID 2
 
 /*
+ A complex as triangles over doubles that were checked exactly, repaired where rounding had made triangles meet, and a
+ report. Immutable: a const handle may be used from many threads at once.
+
+ Certified means: no triangle is without area; no two triangles meet but in a vertex or an edge that they share by index
+ (all pairs, of all faces); every cell's outer surface encloses a positive volume, every void in it a negative one. All
+ of that holds exactly for the doubles as they are, so the cells are disjoint solids that fill the input up to the changes
+ that the report tells.
+
+ Vertices, faces and cells have numbers of their own here, in the complex's order without those that are gone; maps lead from
+ the complex's numbers to these. Where nothing had to be repaired both are the same. The complex stays as it is.
+ */
+typedef struct lap_certified lap_certified;
+
+/*
  Vertices, edges, faces and cells. Belongs to the handle that it was borrowed from. Ids are positions in the
  arrays, from 0. Immutable: a const handle may be used from many threads at once; what is computed on demand is
  computed once.
@@ -252,6 +266,53 @@ typedef struct lap_cut_options {
      */
     int32_t check;
 } lap_cut_options;
+
+/* Options of lap_certified_new; filled by lap_certify_options_init. */
+typedef struct lap_certify_options {
+    /* Size of this struct in bytes, as the caller was compiled. */
+    int32_t struct_size;
+    /* Nonzero: check and report, repair nothing. 0, the default: repair. */
+    int32_t check_only;
+    /*
+     Nonzero: ask also about pairs of triangles of the input that no plane has cut. They meet only if the input
+     intersects itself, so this is for input that was not checked. 0, the default: do not.
+     */
+    int32_t check_input;
+} lap_certify_options;
+
+/* What lap_certified_report writes. Lengths are in the unit of the coordinates. */
+typedef struct lap_certify_report {
+    /* Size of this struct in bytes, as the caller was compiled. */
+    int32_t struct_size;
+    /* 1 if nothing remains, else 0: then lap_certified_open says where. */
+    int32_t certified;
+    /*
+     With correctly rounded coordinates, before any repair: triangles without area; pairs of triangles that meet; outer surfaces and voids of cells
+     whose volume does not have its sign (asked only where the other two are 0).
+     */
+    int64_t flat_before;
+    int64_t contacts_before;
+    int64_t volumes_before;
+    /*
+     Vertices of the complex that are not at their correctly rounded coordinates any more, those that were merged into others
+     included; how many of them are vertices of the input mesh; how many were merged.
+     */
+    int64_t moved_vertices;
+    int64_t moved_mesh_vertices;
+    int64_t merged_vertices;
+    /* Faces and cells that are gone: those of which too little is left for doubles. The maps list them. */
+    int64_t removed_faces;
+    int64_t removed_cells;
+    /* What lap_certified_open lists. */
+    int64_t open_pairs;
+    int64_t open_cells;
+    /*
+     The largest change of any coordinate; and the unit in which vertices are moved: one ulp of the largest |coordinate| of
+     the mesh's bounding box.
+     */
+    double largest_move;
+    double move_unit;
+} lap_certify_report;
 
 /* Options of lap_grid_new and lap_grid_new_patch; filled by lap_grid_options_init. */
 typedef struct lap_grid_options {
@@ -948,6 +1009,136 @@ int32_t lap_complex_cell_volume_exact(struct lap_context *context,
                                       const struct lap_complex *complex,
                                       int32_t cell,
                                       const char **volume);
+
+/*
+ Fills options of lap_certified_new with the defaults.
+
+ struct_size: pass (int32_t)sizeof(lap_certify_options); no more than that is written.
+
+ Errors: LAP_ERR_NULL_POINTER; LAP_ERR_BAD_ARGUMENT if the size is not a multiple of 4 in 4..4096.
+ */
+int32_t lap_certify_options_init(struct lap_certify_options *options, int32_t struct_size);
+
+/*
+ Triangulates a complex without new vertices, checks the triangles exactly over the correctly rounded coordinates, and
+ repairs what rounding broke.
+
+ Repairs are tried in this order, each around a defect only, and kept if they help: vertices at one place are merged, and
+ cells without volume go with them; diagonals of faces are flipped; vertices made by planes are moved by few units, first
+ across the faces and along the lines whose order they break; vertices a few units apart are merged. Vertices of the input mesh are
+ moved, and vertices that no edge joins merged, only where all of that failed. So the report is to be read: a result may be
+ uncertified, and says so.
+
+ Inputs (borrowed for the call): complex; fixed_planes: n_fixed_planes indices of planes, as the complex uses them (of coincident
+ planes the lowest): vertices on these planes, block boundaries say, stay where they are; fixed_vertices: n_fixed_vertices
+ indices of further vertices that do; options: or NULL for the defaults. Others may be merged into a vertex that stays.
+ certified: receives the handle, NULL after an error or cancel; free it with lap_certified_free. It does not need the complex to stay
+ alive.
+
+ Errors: LAP_ERR_INCONSISTENT if a face contradicts itself (input that intersects itself), LAP_ERR_NULL_POINTER,
+ LAP_ERR_BAD_ARGUMENT (an index out of range included), LAP_ERR_TOO_LARGE, LAP_ERR_CANCELLED, LAP_ERR_OUT_OF_MEMORY,
+ LAP_ERR_BUSY. That something remains uncertified is no error. Cost: n log n of the triangles, mostly for those with a vertex
+ made by planes; about a millisecond for each place that has to be repaired.
+ */
+int32_t lap_certified_new(struct lap_context *context,
+                          const struct lap_complex *complex,
+                          int64_t n_fixed_planes,
+                          const int32_t *fixed_planes,
+                          int64_t n_fixed_vertices,
+                          const int32_t *fixed_vertices,
+                          const struct lap_certify_options *options,
+                          struct lap_certified **certified);
+
+/*
+ Frees what was certified and all that was borrowed from it. NULL is allowed and does nothing.
+
+ Errors: none.
+ */
+int32_t lap_certified_free(struct lap_certified *certified);
+
+/*
+ How many elements are left.
+
+ Outputs: each may be NULL.
+
+ Errors: LAP_ERR_NULL_POINTER if certified is NULL. Threads: any. Cost: none.
+ */
+int32_t lap_certified_counts(const struct lap_certified *certified,
+                             int64_t *vertices,
+                             int64_t *triangles,
+                             int64_t *faces,
+                             int64_t *cells);
+
+/*
+ The vertices.
+
+ Outputs (each may be NULL; borrowed as the handle): count; xyz: 3 × count coordinates.
+
+ Errors: LAP_ERR_NULL_POINTER if certified is NULL. Threads: any. Cost: none.
+ */
+int32_t lap_certified_vertices(const struct lap_certified *certified, int64_t *count, const double **xyz);
+
+/*
+ The triangles, by faces.
+
+ Outputs (each may be NULL; borrowed as the handle): count; vertices: 3 × count, anticlockwise seen with the face's normal up;
+ cells: 2 × count, the cell behind each triangle and the cell before it (-1: outside), as lap_complex_face_cells has them for
+ faces; face_count; face_triangles: face_count + 1: face f has the triangles face_triangles[f] up to, not including,
+ face_triangles[f + 1]. Where a cell between two faces went, in whole or in part, triangles of both are one: it is in the face with
+ the lower number, between the cells that are left.
+
+ Errors: LAP_ERR_NULL_POINTER if certified is NULL. Threads: any. Cost: none.
+ */
+int32_t lap_certified_triangles(const struct lap_certified *certified,
+                                int64_t *count,
+                                const int32_t **vertices,
+                                const int32_t **cells,
+                                int64_t *face_count,
+                                const int32_t **face_triangles);
+
+/*
+ From the complex's vertices, faces and cells to those here.
+
+ Outputs (each may be NULL; borrowed as the handle): n_vertices, n_faces, n_cells: the numbers of the complex; vertices, faces, cells:
+ for each the index here, -1 for one that is gone. A vertex that was merged has the index of the one that stands for
+ it.
+
+ Errors: LAP_ERR_NULL_POINTER if certified is NULL. Threads: any. Cost: none.
+ */
+int32_t lap_certified_maps(const struct lap_certified *certified,
+                           int64_t *n_vertices,
+                           const int32_t **vertices,
+                           int64_t *n_faces,
+                           const int32_t **faces,
+                           int64_t *n_cells,
+                           const int32_t **cells);
+
+/*
+ The report.
+
+ report: written; struct_size: pass (int32_t)sizeof(lap_certify_report); no more than that is written.
+
+ Errors: LAP_ERR_NULL_POINTER; LAP_ERR_BAD_ARGUMENT if the size is not a multiple of 4 in 4..4096. Threads: any. Cost:
+ none.
+ */
+int32_t lap_certified_report(const struct lap_certified *certified,
+                             struct lap_certify_report *report,
+                             int32_t struct_size);
+
+/*
+ What remains uncertified, in numbers of the complex (not of this handle).
+
+ Outputs (each may be NULL; borrowed as the handle): n_pairs; pairs: 2 × n_pairs faces whose triangles meet, the lower first; twice the same
+ face for one that meets itself or has a triangle without area; n_cells; cells: those with a volume, or a void, of the
+ wrong sign (asked only if there are no pairs). All are empty for a certified result.
+
+ Errors: LAP_ERR_NULL_POINTER if certified is NULL. Threads: any. Cost: none.
+ */
+int32_t lap_certified_open(const struct lap_certified *certified,
+                           int64_t *n_pairs,
+                           const int32_t **pairs,
+                           int64_t *n_cells,
+                           const int32_t **cells);
 
 /*
  Gives the triangles of a mesh global ids, for keys: of results that are made from it afterwards. Without, the id of a

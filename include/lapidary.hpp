@@ -596,6 +596,96 @@ private:
     std::unique_ptr<lap_cut, free_it> handle_;
 };
 
+inline lap_certify_options certify_options()
+{
+    lap_certify_options options;
+    check(lap_certify_options_init(&options, static_cast<std::int32_t>(sizeof options)));
+    return options;
+}
+
+/* A complex as triangles over doubles that were checked exactly; report().certified tells whether nothing remains. */
+class certified {
+public:
+    struct counts_t {
+        std::int64_t vertices, triangles, faces, cells;
+    };
+    struct triangles_t {
+        groups<std::int32_t, 3> vertices;
+        groups<std::int32_t, 2> cells;
+        /* face_triangles[f] up to face_triangles[f + 1] */
+        view<std::int32_t> face_triangles;
+    };
+    struct maps_t {
+        view<std::int32_t> vertices, faces, cells;
+    };
+    struct open_t {
+        groups<std::int32_t, 2> faces;
+        view<std::int32_t> cells;
+    };
+
+    certified(context &with, const complex &of, const std::vector<std::int32_t> &fixed_planes = {},
+              const std::vector<std::int32_t> &fixed_vertices = {}, const lap_certify_options &options = certify_options())
+    {
+        lap_certified *made = nullptr;
+        const std::int32_t status = lap_certified_new(
+            with.get(), of.get(), static_cast<std::int64_t>(fixed_planes.size()), fixed_planes.data(),
+            static_cast<std::int64_t>(fixed_vertices.size()), fixed_vertices.data(), &options, &made);
+        handle_.reset(made);
+        with.run(status);
+    }
+
+    lap_certify_report report() const
+    {
+        lap_certify_report report;
+        check(lap_certified_report(get(), &report, static_cast<std::int32_t>(sizeof report)));
+        return report;
+    }
+    counts_t counts() const
+    {
+        counts_t n{};
+        check(lap_certified_counts(get(), &n.vertices, &n.triangles, &n.faces, &n.cells));
+        return n;
+    }
+    groups<double, 3> vertices() const
+    {
+        groups<double, 3> v;
+        check(lap_certified_vertices(get(), &v.count, &v.data));
+        return v;
+    }
+    triangles_t triangles() const
+    {
+        triangles_t t;
+        check(lap_certified_triangles(get(), &t.vertices.count, &t.vertices.data, &t.cells.data, &t.face_triangles.count,
+                                      &t.face_triangles.data));
+        t.cells.count = t.vertices.count;
+        ++t.face_triangles.count;
+        return t;
+    }
+    /* From the complex's numbers to those here; -1 for what is gone. */
+    maps_t maps() const
+    {
+        maps_t m;
+        check(lap_certified_maps(get(), &m.vertices.count, &m.vertices.data, &m.faces.count, &m.faces.data, &m.cells.count,
+                                 &m.cells.data));
+        return m;
+    }
+    /* In the complex's numbers. */
+    open_t open() const
+    {
+        open_t o;
+        check(lap_certified_open(get(), &o.faces.count, &o.faces.data, &o.cells.count, &o.cells.data));
+        return o;
+    }
+
+    const lap_certified *get() const { return handle_.get(); }
+
+private:
+    struct free_it {
+        void operator()(lap_certified *handle) const { lap_certified_free(handle); }
+    };
+    std::unique_ptr<lap_certified, free_it> handle_;
+};
+
 } // namespace lapidary
 
 #endif /* LAPIDARY_HPP */

@@ -30,6 +30,7 @@ void test_context(void);
 void test_mesh(void);
 void test_cut(void);
 void test_complex(void);
+void test_certify(void);
 void test_keys(void);
 void test_grid(void);
 

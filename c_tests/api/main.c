@@ -92,6 +92,7 @@ int main(void)
     test_mesh();
     test_cut();
     test_complex();
+    test_certify();
     test_keys();
     test_grid();
     return check_result();

@@ -11,6 +11,7 @@
 // The names are those of the C interface, and its contract on pointers is each function's doc comment.
 #![allow(non_camel_case_types, clippy::missing_safety_doc)]
 
+pub mod certify;
 pub mod complex;
 pub mod context;
 pub mod cut;

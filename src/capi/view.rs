@@ -97,7 +97,7 @@ pub fn index(i: i32, count: usize) -> Result<usize, Status> {
 ///
 /// # Safety
 /// `options` is null or points to `struct_size` readable bytes, `struct_size` being the struct's first `i32`. `T` is
-/// `#[repr(C)]`, of `i32`s and `f64`s only (any bytes are a value), with `struct_size: i32` first.
+/// `#[repr(C)]`, of `i32`s, `i64`s and `f64`s without gaps (any bytes are a value), with `struct_size: i32` first.
 pub unsafe fn read_options<T: Copy>(options: *const T, defaults: T) -> Result<T, Status> {
     if options.is_null() {
         return Ok(defaults);
