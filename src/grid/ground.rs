@@ -5,10 +5,10 @@
 //! crossings: walking along the edge, every slab that is not passed is known. No coordinate is read.
 
 use super::lattice::Lattice;
-use crate::base::{Result, VertexId};
+use crate::base::{Culprit, DefectKind, Error, Result, Status, VertexId};
 use crate::cut::classify::{Classified, KnifeId, Knives, classify};
 use crate::cut::edges::{EdgePoints, edge_points};
-use crate::mesh::TriMesh;
+use crate::mesh::{EdgeUse, TriMesh};
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -125,6 +125,36 @@ impl Ground {
             }
         }
         self.slabs = slabs;
+    }
+
+    /// Whether every edge that meets the block's closed box is walked as often one way as the other. A patch of a mesh may have open edges
+    /// elsewhere; here one means that a triangle is missing.
+    pub fn require_balance(&self) -> Result<()> {
+        let open = |uses: &[EdgeUse]| 2 * uses.iter().filter(|u| u.forward()).count() != uses.len();
+        for (e, uses) in self.mesh.edge_uses.rows().enumerate() {
+            if !open(uses) {
+                continue;
+            }
+            let [a, b] = self.mesh.edges[e].map(|v| self.slabs[v.at()]);
+            let mut walk = Walk::new(a, b);
+            let mut meets = self.in_block(&a) || self.in_block(&b) || self.in_block(&walk.here());
+            for p in self.points.first[e]..self.points.first[e + 1] {
+                let s = self.slabs[(self.first_edge_point() + p) as usize];
+                (0..3).filter(|&a| on_plane(s[a])).for_each(|a| walk.reach(a, s[a] / 2));
+                meets |= self.in_block(&walk.here());
+                walk.leave();
+                meets |= self.in_block(&walk.here());
+            }
+            if meets {
+                let [a, b] = self.mesh.edges[e].map(|v| self.mesh.vertex_source[v.at()] as i64);
+                let triangle = uses[0].triangle.0 as i64;
+                let culprit = Culprit::new(DefectKind::OpenEdge, &[a.min(b), a.max(b), triangle]);
+                let message =
+                    format!("edge ({}, {}) meets the block and is open: a triangle is missing", a.min(b), a.max(b));
+                return Err(Error::with(Status::BadMesh, message, vec![culprit]));
+            }
+        }
+        Ok(())
     }
 
     /// Slabs rise or fall strictly along an edge where its ends' do, and its points' sets are the planes they say.

@@ -61,6 +61,9 @@ pub fn cut_grid(mesh: &Arc<TriMesh>, lattice: Lattice, options: &GridOptions, ru
     let ground = Ground::new(&mesh, &lattice)?;
     debug_assert_eq!(ground.check(), Ok(()));
     limit(ground.slabs.len())?;
+    if options.known.is_some() {
+        ground.require_balance()?;
+    }
     run.stage("pieces", 0.1)?;
     let mut pieces = pieces::pieces(&ground);
     debug_assert_eq!(pieces.check(), Ok(()));

@@ -128,6 +128,35 @@ pub fn build(input: &MeshInput, options: &MeshOptions, run: &mut Run) -> Result<
     Ok(mesh)
 }
 
+/// Builds part of a mesh: some of its triangles, perhaps none, so edges may be open. What is there is checked as [`build`] does; balance of edges,
+/// shells and nesting are not, nor self-intersection. Each edge-connected component counts as an outer shell. Only `cut_grid` takes such a mesh;
+/// it requires balance where the mesh meets its block.
+///
+/// Errors: as for [`build`], without those that need the whole mesh. An edge with more uses one way than the other is no error.
+pub fn build_patch(input: &MeshInput, options: &MeshOptions, run: &mut Run) -> Result<TriMesh> {
+    check_counts(input)?;
+    run.stage("mesh: coordinates and indices", 0.0)?;
+    let mut defects = Vec::new();
+    validate::non_finite(input.vertices, &mut defects);
+    validate::out_of_range(input.vertices.len(), input.triangles, &mut defects);
+    let work = gather(input, options, &mut defects);
+    validate::degenerate(&work.vertices, &work.triangles, |t| {
+        defects.push(Culprit::new(DefectKind::DegenerateTriangle, &[work.triangle(t)]));
+    });
+    if !defects.is_empty() {
+        return Err(bad_mesh(defects));
+    }
+    run.stage("mesh: edges", 0.2)?;
+    let table = edge_table(work.vertices.len(), &work.triangles);
+    let components = shells::components(work.triangles.len(), &table.edge_uses);
+    let signs = vec![Sign::Positive; components.1];
+    let triangle_shell = components.0.clone();
+    let mut mesh = assemble(work, table, &components, &triangle_shell, &signs);
+    mesh.tags = input.tags.map(<[i32]>::to_vec).unwrap_or_default();
+    run.end_stage();
+    Ok(mesh)
+}
+
 fn check_counts(input: &MeshInput) -> Result<()> {
     let (v, t) = (input.vertices.len(), input.triangles.len());
     if v > MAX_VERTICES {
@@ -234,7 +263,7 @@ fn assemble(
     triangle_shell: &[u32],
     signs: &[Sign],
 ) -> TriMesh {
-    let mut lo = work.vertices[0];
+    let mut lo = work.vertices.first().copied().unwrap_or_default();
     let mut hi = lo;
     for x in &work.vertices {
         for i in 0..3 {

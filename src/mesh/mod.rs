@@ -13,7 +13,7 @@ pub mod shells;
 pub mod validate;
 pub mod volume;
 
-pub use build::{MeshInput, MeshOptions, build};
+pub use build::{MeshInput, MeshOptions, build, build_patch};
 pub use inside::{Place, locate};
 pub use nesting::next_anchor;
 pub use shells::{WedgeScratch, wedge_mates};
