@@ -6,8 +6,19 @@
 use std::path::Path;
 
 /// In the order in which the header shows them.
-const SOURCES: [&str; 10] =
-    ["status", "context", "mesh", "cut", "complex", "derived", "certify", "keys", "grid", "grid_cells"];
+const SOURCES: &[&str] = &[
+    "status",
+    "context",
+    "mesh",
+    "cut",
+    "complex",
+    "derived",
+    "keys",
+    "certify",
+    "grid",
+    "grid_cells",
+    "grid_moments",
+];
 
 fn main() {
     println!("cargo:rerun-if-changed=build.rs");

@@ -1011,6 +1011,69 @@ int32_t lap_complex_cell_volume_exact(struct lap_context *context,
                                       const char **volume);
 
 /*
+ Gives the triangles of a mesh global ids, for keys: of results that are made from it afterwards. Without, the id of a
+ triangle is its index.
+
+ Inputs (borrowed for the call): ids: n_triangles numbers, one per triangle that the mesh was made of, in that order, each
+ from 0 up to, not including, 2^40, no two equal. Two meshes that hold parts of one surface give a triangle the
+ same id, and list its corners in the same order. No other call may use the mesh meanwhile.
+
+ Errors: LAP_ERR_NULL_POINTER; LAP_ERR_BAD_ARGUMENT for another number of ids, an id out of range, or two that are equal;
+ LAP_ERR_TOO_LARGE, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: linear if the ids rise, else n log n.
+ */
+int32_t lap_mesh_set_triangle_ids(struct lap_context *context,
+                                  struct lap_mesh *mesh,
+                                  int64_t n_triangles,
+                                  const int64_t *ids);
+
+/*
+ Gives the planes of a cut global ids, for keys. Without, the id of a plane is its index.
+
+ Inputs (borrowed for the call): ids: n_planes numbers, one per plane that was given to lap_cut_new, in that order, each from 0
+ up to, not including, 2^40, no two equal. Of coincident planes the smallest id stands for all. Only before the first call of
+ lap_complex_vertex_keys or lap_complex_face_keys; no other call may use the cut meanwhile.
+
+ Errors: LAP_ERR_NULL_POINTER; LAP_ERR_BAD_ARGUMENT for another number of ids, an id out of range, two that are equal, or if there
+ are keys already; LAP_ERR_TOO_LARGE, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: linear if the ids rise, else n log n.
+ */
+int32_t lap_cut_set_plane_ids(struct lap_context *context,
+                              struct lap_cut *cut,
+                              int64_t n_planes,
+                              const int64_t *ids);
+
+/*
+ The keys of the vertices: 128 bits each, made from global ids of triangles and planes alone (lap_mesh_set_triangle_ids,
+ lap_cut_set_plane_ids). No two vertices have the same key, and no vertex has that of a face. Two complexes cut from parts of
+ the same mesh by some of the same planes give a vertex that they share the same key, if both know all triangles that
+ contain it: a block that is given every triangle which meets its closed box, and the planes that bound it, does.
+
+ Outputs (each may be NULL; borrowed as the complex): count; keys: 2 × count, the first number of a pair never negative.
+ What the numbers are: the 7 high bits of the first are the kind of the point, then follow three numbers of 40 bits, as for
+ lap_complex_vertex_origins; elements of the mesh go by the smallest id of the triangles that contain them. Kinds: 0, 1, 2:
+ corner 0, 1, 2 of a triangle; 3, 4, 5: on the side from corner 0, 1, 2 of a triangle to the next, and the smallest plane that
+ crosses it there; 6: inside a triangle, on two planes; 7: on three planes.
+
+ Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: linear at the first
+ call, then none.
+ */
+int32_t lap_complex_vertex_keys(const struct lap_complex *complex,
+                                int64_t *count,
+                                const int64_t **keys);
+
+/*
+ The keys of the faces, as lap_complex_vertex_keys: no two faces have the same key, and a face that two complexes share has
+ the same key in both. A key names one edge of the face's boundary with its direction, and so the face on its left.
+
+ Outputs (each may be NULL; borrowed as the complex): count; keys: 2 × count, the first number of a pair never negative.
+
+ Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_INCONSISTENT for input that intersects itself,
+ LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: linear at the first call, then none.
+ */
+int32_t lap_complex_face_keys(const struct lap_complex *complex,
+                              int64_t *count,
+                              const int64_t **keys);
+
+/*
  Fills options of lap_certified_new with the defaults.
 
  struct_size: pass (int32_t)sizeof(lap_certify_options); no more than that is written.
@@ -1139,69 +1202,6 @@ int32_t lap_certified_open(const struct lap_certified *certified,
                            const int32_t **pairs,
                            int64_t *n_cells,
                            const int32_t **cells);
-
-/*
- Gives the triangles of a mesh global ids, for keys: of results that are made from it afterwards. Without, the id of a
- triangle is its index.
-
- Inputs (borrowed for the call): ids: n_triangles numbers, one per triangle that the mesh was made of, in that order, each
- from 0 up to, not including, 2^40, no two equal. Two meshes that hold parts of one surface give a triangle the
- same id, and list its corners in the same order. No other call may use the mesh meanwhile.
-
- Errors: LAP_ERR_NULL_POINTER; LAP_ERR_BAD_ARGUMENT for another number of ids, an id out of range, or two that are equal;
- LAP_ERR_TOO_LARGE, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: linear if the ids rise, else n log n.
- */
-int32_t lap_mesh_set_triangle_ids(struct lap_context *context,
-                                  struct lap_mesh *mesh,
-                                  int64_t n_triangles,
-                                  const int64_t *ids);
-
-/*
- Gives the planes of a cut global ids, for keys. Without, the id of a plane is its index.
-
- Inputs (borrowed for the call): ids: n_planes numbers, one per plane that was given to lap_cut_new, in that order, each from 0
- up to, not including, 2^40, no two equal. Of coincident planes the smallest id stands for all. Only before the first call of
- lap_complex_vertex_keys or lap_complex_face_keys; no other call may use the cut meanwhile.
-
- Errors: LAP_ERR_NULL_POINTER; LAP_ERR_BAD_ARGUMENT for another number of ids, an id out of range, two that are equal, or if there
- are keys already; LAP_ERR_TOO_LARGE, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: linear if the ids rise, else n log n.
- */
-int32_t lap_cut_set_plane_ids(struct lap_context *context,
-                              struct lap_cut *cut,
-                              int64_t n_planes,
-                              const int64_t *ids);
-
-/*
- The keys of the vertices: 128 bits each, made from global ids of triangles and planes alone (lap_mesh_set_triangle_ids,
- lap_cut_set_plane_ids). No two vertices have the same key, and no vertex has that of a face. Two complexes cut from parts of
- the same mesh by some of the same planes give a vertex that they share the same key, if both know all triangles that
- contain it: a block that is given every triangle which meets its closed box, and the planes that bound it, does.
-
- Outputs (each may be NULL; borrowed as the complex): count; keys: 2 × count, the first number of a pair never negative.
- What the numbers are: the 7 high bits of the first are the kind of the point, then follow three numbers of 40 bits, as for
- lap_complex_vertex_origins; elements of the mesh go by the smallest id of the triangles that contain them. Kinds: 0, 1, 2:
- corner 0, 1, 2 of a triangle; 3, 4, 5: on the side from corner 0, 1, 2 of a triangle to the next, and the smallest plane that
- crosses it there; 6: inside a triangle, on two planes; 7: on three planes.
-
- Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: linear at the first
- call, then none.
- */
-int32_t lap_complex_vertex_keys(const struct lap_complex *complex,
-                                int64_t *count,
-                                const int64_t **keys);
-
-/*
- The keys of the faces, as lap_complex_vertex_keys: no two faces have the same key, and a face that two complexes share has
- the same key in both. A key names one edge of the face's boundary with its direction, and so the face on its left.
-
- Outputs (each may be NULL; borrowed as the complex): count; keys: 2 × count, the first number of a pair never negative.
-
- Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_INCONSISTENT for input that intersects itself,
- LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: linear at the first call, then none.
- */
-int32_t lap_complex_face_keys(const struct lap_complex *complex,
-                              int64_t *count,
-                              const int64_t **keys);
 
 /*
  Fills grid options with the defaults.
@@ -1469,6 +1469,107 @@ int32_t lap_grid_vertex_keys(const struct lap_grid *grid,
 int32_t lap_grid_face_keys(const struct lap_grid *grid,
                            int64_t *count,
                            const int64_t **keys);
+
+/*
+ Volumes of the cut cells.
+
+ Conventions of all these arrays: lengths, areas and volumes are in powers of the input's unit; fractions are relative to
+ the whole box or to the whole square of the grid, so in (0, 1]; coordinates are absolute, not relative to the box. A box
+ that is full has fraction 1 and its middle as its centroid, one that is empty has fraction 0. A box in several
+ parts has several cells, whose fractions add up. Every number is within one unit in the last place of the exact value
+ and depends on that value alone: not on threads, blocks or the order of the input. Sums close accordingly: the
+ areas of a cell's faces in grid planes and its boundary area vector cancel within half a unit in the last place per term.
+
+ Outputs (each may be NULL; borrowed until the grid is freed): count: the number of cut cells; volumes: count; fractions:
+ count, volume over the volume of the box; centroids: 3 × count; flags: count, nonzero where a value of this
+ cell (boundary included) is beyond the range of double: it is then infinite, or 0.
+
+ Errors: LAP_ERR_NULL_POINTER if grid is NULL, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: about a microsecond per cut cell
+ at the first call of this function, lap_grid_cell_boundaries or lap_grid_plane_face_moments, then none.
+ */
+int32_t lap_grid_cell_moments(const struct lap_grid *grid,
+                              int64_t *count,
+                              const double **volumes,
+                              const double **fractions,
+                              const double **centroids,
+                              const uint8_t **flags);
+
+/*
+ The embedded boundary of each cut cell: all its walls together.
+
+ Outputs (each may be NULL; borrowed until the grid is freed): count: the number of cut cells; area_vectors: 3 × count, the
+ sum of the area vectors of the cell's walls, pointing out of the fluid; centroids: 3 × count, the mean of the positions on
+ the walls, weighted by area (the cell's centroid if it has no wall).
+
+ Errors: LAP_ERR_NULL_POINTER if grid is NULL, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: as lap_grid_cell_moments.
+ */
+int32_t lap_grid_cell_boundaries(const struct lap_grid *grid,
+                                 int64_t *count,
+                                 const double **area_vectors,
+                                 const double **centroids);
+
+/*
+ The faces in grid planes, in the order of lap_grid_plane_faces, which says what cells each joins.
+
+ Outputs (each may be NULL; borrowed until the grid is freed): count: the number of faces in grid planes; areas: count;
+ fractions: count, area over the area of the square; centroids: 3 × count, the coordinate across the plane being the
+ plane's node, bit for bit; flags: count, nonzero where a value is beyond the range of double: it is then infinite, or 0.
+ The area vector of a face is its area along the axis.
+
+ Errors: LAP_ERR_NULL_POINTER if grid is NULL, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: as lap_grid_cell_moments.
+ */
+int32_t lap_grid_plane_face_moments(const struct lap_grid *grid,
+                                    int64_t *count,
+                                    const double **areas,
+                                    const double **fractions,
+                                    const double **centroids,
+                                    const uint8_t **flags);
+
+/*
+ The walls one by one, in the order of lap_grid_walls, which says what triangle, tag and cell each has.
+
+ Outputs (each may be NULL; borrowed until the grid is freed): count: the number of walls; area_vectors: 3 × count, pointing
+ out of the fluid; centroids: 3 × count.
+
+ Errors: LAP_ERR_NULL_POINTER if grid is NULL, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: some 200 ns and 48 bytes per wall
+ at the first call, then none.
+ */
+int32_t lap_grid_wall_moments(const struct lap_grid *grid,
+                              int64_t *count,
+                              const double **area_vectors,
+                              const double **centroids);
+
+/*
+ The walls of each cut cell.
+
+ Outputs (each may be NULL; borrowed until the grid is freed): count: the number of cut cells; offsets: count + 1; walls:
+ those of cell c are walls[offsets[c]] up to, not including, walls[offsets[c + 1]], rising. With lap_grid_walls they lead to
+ the triangles and tags behind a cell.
+
+ Errors: LAP_ERR_NULL_POINTER if grid is NULL, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: linear in the walls at the first
+ call, then none.
+ */
+int32_t lap_grid_cell_walls(const struct lap_grid *grid,
+                            int64_t *count,
+                            const int32_t **offsets,
+                            const int32_t **walls);
+
+/*
+ The embedded boundary of each cut cell by tag of the triangles: what a boundary patch has of the cell.
+
+ Outputs (each may be NULL; borrowed until the grid is freed): count: the number of cut cells; offsets: count + 1: cell c has
+ the entries offsets[c] up to, not including, offsets[c + 1]; tags: the tag of each entry, rising in a cell (0 for
+ a mesh without tags); area_vectors: 3 per entry, pointing out of the fluid; centroids: 3 per entry, weighted by area.
+
+ Errors: LAP_ERR_NULL_POINTER if grid is NULL, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: as lap_grid_cell_moments, and
+ again for cells with several tags, at the first call, then none.
+ */
+int32_t lap_grid_cell_tags(const struct lap_grid *grid,
+                           int64_t *count,
+                           const int32_t **offsets,
+                           const int32_t **tags,
+                           const double **area_vectors,
+                           const double **centroids);
 
 #ifdef __cplusplus
 }  // extern "C"

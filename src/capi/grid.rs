@@ -4,6 +4,7 @@
 use super::context::{State, c_string, lap_context, with_context};
 use super::derived::on_demand;
 use super::grid_cells::Views;
+use super::grid_moments::Arrays;
 use super::guard::{Host, guard};
 use super::mesh::{bad_options, lap_mesh};
 use super::view::{address, handle, index, input, into_handle, put, read_options, write_options};
@@ -67,6 +68,7 @@ pub struct lap_grid {
     tally: OnceLock<[i64; 3]>,
     box_offsets: OnceLock<Vec<u32>>,
     pub views: Views,
+    pub arrays: Arrays,
 }
 
 /// The block in the whole grid, as C reads it.
@@ -105,6 +107,7 @@ impl lap_grid {
             tally: OnceLock::new(),
             box_offsets: OnceLock::new(),
             views: Views::default(),
+            arrays: Arrays::default(),
         })
     }
 }

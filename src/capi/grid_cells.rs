@@ -4,10 +4,14 @@ use super::derived::on_demand;
 use super::grid::lap_grid;
 use super::guard::guard;
 use super::view::{address, handle, put};
-use crate::base::{BoxId, CellId, Error, Status};
+use crate::base::{BoxId, Error, Status};
 use crate::complex::Key;
+use crate::grid::moments::cell_boxes;
 use crate::grid::{self, GridCells};
 use std::sync::OnceLock;
+
+/// Of vertices, and of faces.
+type Keys = (Vec<Key>, Vec<Key>);
 
 /// What C reads in another form than it is stored in.
 #[derive(Default)]
@@ -15,7 +19,7 @@ pub struct Views {
     wall_sources: OnceLock<Vec<i64>>,
     wall_tags: OnceLock<Vec<i32>>,
     cell_boxes: OnceLock<Vec<BoxId>>,
-    keys: OnceLock<Result<(Vec<Key>, Vec<Key>), Error>>,
+    keys: OnceLock<Result<Keys, Error>>,
 }
 
 /// The vertices of the cut cells: each coordinate the double nearest to the exact one (ties to even, zero as +0), in the
@@ -190,15 +194,6 @@ pub unsafe extern "C" fn lap_grid_cells(
     })
 }
 
-fn cell_boxes(g: &GridCells) -> Vec<BoxId> {
-    let mut boxes = Vec::with_capacity(g.cell_count());
-    for (i, &b) in g.cut_boxes.iter().enumerate() {
-        boxes.resize(g.box_cells[i + 1] as usize, b);
-    }
-    debug_assert!(boxes.len() == g.cell_count() && !g.wall_cell.contains(&CellId::NONE));
-    boxes
-}
-
 /// The keys of the vertices, as lap_complex_vertex_keys makes them: from the ids of triangles and the places of planes in the
 /// whole grid, so that blocks which share a vertex give it the same key.
 ///
@@ -239,7 +234,7 @@ pub unsafe extern "C" fn lap_grid_face_keys(grid: *const lap_grid, count: *mut i
     })
 }
 
-fn keys_of(grid: &lap_grid) -> Result<&(Vec<Key>, Vec<Key>), Status> {
+fn keys_of(grid: &lap_grid) -> Result<&Keys, Status> {
     let ids = grid.triangle_ids.as_deref();
     let made = on_demand(grid.threads, &grid.views.keys, || grid::keys(&grid.data, ids))?;
     made.as_ref().map_err(|error| error.status)

@@ -19,6 +19,7 @@ pub mod derived;
 mod fpenv;
 pub mod grid;
 pub mod grid_cells;
+pub mod grid_moments;
 mod guard;
 pub mod keys;
 pub mod mesh;
