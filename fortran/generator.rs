@@ -249,11 +249,10 @@ impl<'a> Module<'a> {
             lines.push(format!("      {line}\n"));
         }
         let imports: Vec<&str> = imports.into_iter().collect();
-        let head = format!("    integer(c_int32_t) function {name}({}) bind(c, name=\"{name}\")", names.join(", "));
         self.text += &format!(
             "\n  public :: {name}\n  interface\n{}{}\n      import :: {}\n{}    end function\n  end interface\n",
             comment(doc, "    "),
-            continued(&head),
+            head(name, &names),
             imports.join(", "),
             lines.concat()
         );
@@ -331,16 +330,19 @@ fn comment(doc: &str, indent: &str) -> String {
     out
 }
 
-/// A statement, continued on further lines where it is too long.
-fn continued(statement: &str) -> String {
-    let (mut out, mut length) = (String::new(), 0);
-    for (i, part) in statement.split_inclusive(", ").enumerate() {
-        if i > 0 && length + part.len() + 2 > WIDTH {
+/// The first statement of a function, continued on further lines where it is too long.
+fn head(name: &str, dummies: &[&str]) -> String {
+    let mut out = format!("    integer(c_int32_t) function {name}(");
+    let mut length = out.len();
+    for (i, dummy) in dummies.iter().enumerate() {
+        let end = if i + 1 < dummies.len() { ", ".into() } else { format!(") bind(c, name=\"{name}\")") };
+        if length + dummy.len() + end.len() + 1 > WIDTH {
             out += "&\n      ";
             length = 6;
         }
-        out += part;
-        length += part.len();
+        out += dummy;
+        out += &end;
+        length += dummy.len() + end.len();
     }
     out
 }

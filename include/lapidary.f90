@@ -336,8 +336,8 @@ module lapidary
     ! Sets the progress callback (NULL: none) and the pointer that is handed to it.
     !
     ! Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BUSY. Cost: some microseconds per call-back.
-    integer(c_int32_t) function lap_context_set_progress(context, callback, user) bind(c, &
-      name="lap_context_set_progress")
+    integer(c_int32_t) function lap_context_set_progress(context, callback, &
+      user) bind(c, name="lap_context_set_progress")
       import :: c_funptr, c_int32_t, c_ptr
       type(c_ptr), value :: context
       type(c_funptr), value :: callback
@@ -368,8 +368,7 @@ module lapidary
     ! Outputs (each may be NULL). message is valid until the next call with this context.
     !
     ! Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BUSY. Cost: none.
-    integer(c_int32_t) function lap_context_last_error(context, status, message) bind(c, &
-      name="lap_context_last_error")
+    integer(c_int32_t) function lap_context_last_error(context, status, message) bind(c, name="lap_context_last_error")
       import :: c_int32_t, c_ptr
       type(c_ptr), value :: context
       integer(c_int32_t), intent(inout), optional :: status
@@ -386,8 +385,8 @@ module lapidary
     ! this context.
     !
     ! Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BUSY. Cost: none.
-    integer(c_int32_t) function lap_context_last_defects(context, count, kinds, ids) bind(c, &
-      name="lap_context_last_defects")
+    integer(c_int32_t) function lap_context_last_defects(context, count, kinds, &
+      ids) bind(c, name="lap_context_last_defects")
       import :: c_int32_t, c_int64_t, c_ptr
       type(c_ptr), value :: context
       integer(c_int64_t), intent(inout), optional :: count
@@ -533,8 +532,8 @@ module lapidary
     ! solid at their edges; two solids that share an edge are two shells).
     !
     ! Outputs: each may be NULL. Errors: LAP_ERR_NULL_POINTER if mesh is NULL. Threads: any. Cost: none.
-    integer(c_int32_t) function lap_mesh_counts(mesh, vertices, triangles, edges, components, shells) bind(c, &
-      name="lap_mesh_counts")
+    integer(c_int32_t) function lap_mesh_counts(mesh, vertices, triangles, edges, components, &
+      shells) bind(c, name="lap_mesh_counts")
       import :: c_int32_t, c_int64_t, c_ptr
       type(c_ptr), value :: mesh
       integer(c_int64_t), intent(inout), optional :: vertices
@@ -840,8 +839,8 @@ module lapidary
     ! LAP_VERTEX_* says, in the caller's numbering, -1 where unused.
     !
     ! Errors: LAP_ERR_NULL_POINTER if complex is NULL. Threads: any. Cost: linear at the first call, then none.
-    integer(c_int32_t) function lap_complex_vertex_origins(complex, count, kinds, ids) bind(c, &
-      name="lap_complex_vertex_origins")
+    integer(c_int32_t) function lap_complex_vertex_origins(complex, count, kinds, &
+      ids) bind(c, name="lap_complex_vertex_origins")
       import :: c_int32_t, c_int64_t, c_ptr
       type(c_ptr), value :: complex
       integer(c_int64_t), intent(inout), optional :: count
@@ -858,8 +857,8 @@ module lapidary
     ! those of vertex v are planes[offsets[v]] up to, not including, planes[offsets[v + 1]].
     !
     ! Errors: LAP_ERR_NULL_POINTER if complex is NULL. Threads: any. Cost: none.
-    integer(c_int32_t) function lap_complex_vertex_planes(complex, count, offsets, planes) bind(c, &
-      name="lap_complex_vertex_planes")
+    integer(c_int32_t) function lap_complex_vertex_planes(complex, count, offsets, &
+      planes) bind(c, name="lap_complex_vertex_planes")
       import :: c_int32_t, c_int64_t, c_ptr
       type(c_ptr), value :: complex
       integer(c_int64_t), intent(inout), optional :: count
@@ -920,8 +919,8 @@ module lapidary
     ! face is that of its support: of the triangle, or (a, b, c) of the plane.
     !
     ! Errors: LAP_ERR_NULL_POINTER if complex is NULL. Threads: any. Cost: linear at the first call, then none.
-    integer(c_int32_t) function lap_complex_face_supports(complex, count, kinds, ids, planes, tags) bind(c, &
-      name="lap_complex_face_supports")
+    integer(c_int32_t) function lap_complex_face_supports(complex, count, kinds, ids, planes, &
+      tags) bind(c, name="lap_complex_face_supports")
       import :: c_int32_t, c_int64_t, c_ptr
       type(c_ptr), value :: complex
       integer(c_int64_t), intent(inout), optional :: count
@@ -960,8 +959,8 @@ module lapidary
     ! shell.
     !
     ! Errors: LAP_ERR_NULL_POINTER if complex is NULL. Threads: any. Cost: none.
-    integer(c_int32_t) function lap_complex_cells(complex, count, cell_shells, shell_faces, half_faces) bind(c, &
-      name="lap_complex_cells")
+    integer(c_int32_t) function lap_complex_cells(complex, count, cell_shells, shell_faces, &
+      half_faces) bind(c, name="lap_complex_cells")
       import :: c_int32_t, c_int64_t, c_ptr
       type(c_ptr), value :: complex
       integer(c_int64_t), intent(inout), optional :: count
@@ -979,8 +978,8 @@ module lapidary
     ! Outputs (each may be NULL; borrowed as the complex): count: the number of cells; components: count.
     !
     ! Errors: LAP_ERR_NULL_POINTER if complex is NULL. Threads: any. Cost: none.
-    integer(c_int32_t) function lap_complex_cell_components(complex, count, components) bind(c, &
-      name="lap_complex_cell_components")
+    integer(c_int32_t) function lap_complex_cell_components(complex, count, &
+      components) bind(c, name="lap_complex_cell_components")
       import :: c_int32_t, c_int64_t, c_ptr
       type(c_ptr), value :: complex
       integer(c_int64_t), intent(inout), optional :: count
@@ -996,8 +995,7 @@ module lapidary
     !
     ! Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BAD_ARGUMENT for a cell or plane that is not there. Threads: any. Cost: one
     ! exact sign, and a walk over those vertices of the cell that lie on the plane.
-    integer(c_int32_t) function lap_complex_cell_side(complex, cell, plane, side) bind(c, &
-      name="lap_complex_cell_side")
+    integer(c_int32_t) function lap_complex_cell_side(complex, cell, plane, side) bind(c, name="lap_complex_cell_side")
       import :: c_int32_t, c_ptr
       type(c_ptr), value :: complex
       integer(c_int32_t), value :: cell
@@ -1016,8 +1014,8 @@ module lapidary
     !
     ! Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_INTERNAL. Threads: any. Cost: one walk over all faces at
     ! the first call, then none.
-    integer(c_int32_t) function lap_complex_cell_moments(complex, count, volumes, centroids, flags) bind(c, &
-      name="lap_complex_cell_moments")
+    integer(c_int32_t) function lap_complex_cell_moments(complex, count, volumes, centroids, &
+      flags) bind(c, name="lap_complex_cell_moments")
       import :: c_int32_t, c_int64_t, c_ptr
       type(c_ptr), value :: complex
       integer(c_int64_t), intent(inout), optional :: count
@@ -1037,8 +1035,8 @@ module lapidary
     !
     ! Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_INTERNAL. Threads: any. Cost: one walk over all faces at
     ! the first call, then none.
-    integer(c_int32_t) function lap_complex_face_moments(complex, count, area_vectors, centroids, flags) bind(c, &
-      name="lap_complex_face_moments")
+    integer(c_int32_t) function lap_complex_face_moments(complex, count, area_vectors, centroids, &
+      flags) bind(c, name="lap_complex_face_moments")
       import :: c_int32_t, c_int64_t, c_ptr
       type(c_ptr), value :: complex
       integer(c_int64_t), intent(inout), optional :: count
@@ -1059,8 +1057,8 @@ module lapidary
     !
     ! Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_BAD_ARGUMENT for an unknown style, LAP_ERR_INTERNAL.
     ! Threads: any. Cost: n log n in the size of each face at the first call for a style, then none.
-    integer(c_int32_t) function lap_complex_polygons(complex, style, count, offsets, vertices, faces) bind(c, &
-      name="lap_complex_polygons")
+    integer(c_int32_t) function lap_complex_polygons(complex, style, count, offsets, vertices, &
+      faces) bind(c, name="lap_complex_polygons")
       import :: c_int32_t, c_int64_t, c_ptr
       type(c_ptr), value :: complex
       integer(c_int32_t), value :: style
@@ -1085,8 +1083,8 @@ module lapidary
     ! Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_INCONSISTENT if half-faces do not pair up (input that
     ! intersects itself). Threads: any. Cost: linear, and radial orders around edges that a cell meets more than once,
     ! at the first call; then none.
-    integer(c_int32_t) function lap_complex_adjacency(complex, count, mates, faces) bind(c, &
-      name="lap_complex_adjacency")
+    integer(c_int32_t) function lap_complex_adjacency(complex, count, mates, &
+      faces) bind(c, name="lap_complex_adjacency")
       import :: c_int32_t, c_int64_t, c_ptr
       type(c_ptr), value :: complex
       integer(c_int64_t), intent(inout), optional :: count
@@ -1135,8 +1133,8 @@ module lapidary
     !
     ! Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BAD_ARGUMENT for a vertex that is not there, LAP_ERR_OUT_OF_MEMORY,
     ! LAP_ERR_BUSY. Cost: some microseconds.
-    integer(c_int32_t) function lap_complex_vertex_exact(context, complex, vertex, x, y, z) bind(c, &
-      name="lap_complex_vertex_exact")
+    integer(c_int32_t) function lap_complex_vertex_exact(context, complex, vertex, x, y, &
+      z) bind(c, name="lap_complex_vertex_exact")
       import :: c_int32_t, c_ptr
       type(c_ptr), value :: context
       type(c_ptr), value :: complex
@@ -1156,8 +1154,8 @@ module lapidary
     ! Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BAD_ARGUMENT for a cell that is not there, LAP_ERR_OUT_OF_MEMORY,
     ! LAP_ERR_BUSY. Cost: an exact sum over the cell's faces; the string grows with the number of planes that bound the
     ! cell.
-    integer(c_int32_t) function lap_complex_cell_volume_exact(context, complex, cell, volume) bind(c, &
-      name="lap_complex_cell_volume_exact")
+    integer(c_int32_t) function lap_complex_cell_volume_exact(context, complex, cell, &
+      volume) bind(c, name="lap_complex_cell_volume_exact")
       import :: c_int32_t, c_ptr
       type(c_ptr), value :: context
       type(c_ptr), value :: complex
@@ -1177,8 +1175,8 @@ module lapidary
     !
     ! Errors: LAP_ERR_NULL_POINTER; LAP_ERR_BAD_ARGUMENT for another number of ids, an id out of range, or two that are
     ! equal; LAP_ERR_TOO_LARGE, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: linear if the ids rise, else n log n.
-    integer(c_int32_t) function lap_mesh_set_triangle_ids(context, mesh, n_triangles, ids) bind(c, &
-      name="lap_mesh_set_triangle_ids")
+    integer(c_int32_t) function lap_mesh_set_triangle_ids(context, mesh, n_triangles, &
+      ids) bind(c, name="lap_mesh_set_triangle_ids")
       import :: c_int32_t, c_int64_t, c_ptr
       type(c_ptr), value :: context
       type(c_ptr), value :: mesh
@@ -1199,8 +1197,8 @@ module lapidary
     ! Errors: LAP_ERR_NULL_POINTER; LAP_ERR_BAD_ARGUMENT for another number of ids, an id out of range, two that are
     ! equal, or if there are keys already; LAP_ERR_TOO_LARGE, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: linear if the
     ! ids rise, else n log n.
-    integer(c_int32_t) function lap_cut_set_plane_ids(context, cut, n_planes, ids) bind(c, &
-      name="lap_cut_set_plane_ids")
+    integer(c_int32_t) function lap_cut_set_plane_ids(context, cut, n_planes, &
+      ids) bind(c, name="lap_cut_set_plane_ids")
       import :: c_int32_t, c_int64_t, c_ptr
       type(c_ptr), value :: context
       type(c_ptr), value :: cut
@@ -1285,8 +1283,8 @@ module lapidary
     ! or the result more elements than 32-bit indices can number; LAP_ERR_NULL_POINTER, LAP_ERR_CANCELLED,
     ! LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: a byte per box, else it grows with the number of cut boxes and of
     ! triangles.
-    integer(c_int32_t) function lap_grid_new(context, mesh, n_x, x, n_y, y, n_z, z, options, grid) bind(c, &
-      name="lap_grid_new")
+    integer(c_int32_t) function lap_grid_new(context, mesh, n_x, x, n_y, y, n_z, z, options, &
+      grid) bind(c, name="lap_grid_new")
       import :: c_double, c_int32_t, c_int64_t, c_ptr, lap_grid_options
       type(c_ptr), value :: context
       type(c_ptr), value :: mesh
@@ -1341,8 +1339,8 @@ module lapidary
     !
     ! Outputs: each may be NULL. Errors: LAP_ERR_NULL_POINTER if grid is NULL. Threads: any. Cost: one pass over the
     ! flags at the first call, then none.
-    integer(c_int32_t) function lap_grid_counts(grid, empty, full, cut, cells, faces, walls, vertices) bind(c, &
-      name="lap_grid_counts")
+    integer(c_int32_t) function lap_grid_counts(grid, empty, full, cut, cells, faces, walls, &
+      vertices) bind(c, name="lap_grid_counts")
       import :: c_int32_t, c_int64_t, c_ptr
       type(c_ptr), value :: grid
       integer(c_int64_t), intent(inout), optional :: empty
@@ -1487,8 +1485,8 @@ module lapidary
     ! each corner.
     !
     ! Errors: LAP_ERR_NULL_POINTER if grid is NULL. Threads: any. Cost: none.
-    integer(c_int32_t) function lap_grid_faces(grid, count, face_loops, loop_corners, corner_vertices) bind(c, &
-      name="lap_grid_faces")
+    integer(c_int32_t) function lap_grid_faces(grid, count, face_loops, loop_corners, &
+      corner_vertices) bind(c, name="lap_grid_faces")
       import :: c_int32_t, c_int64_t, c_ptr
       type(c_ptr), value :: grid
       integer(c_int64_t), intent(inout), optional :: count
@@ -1534,8 +1532,8 @@ module lapidary
     ! the axis.
     !
     ! Errors: LAP_ERR_NULL_POINTER if grid is NULL. Threads: any. Cost: none.
-    integer(c_int32_t) function lap_grid_plane_faces(grid, first, count, axes, nodes, cells) bind(c, &
-      name="lap_grid_plane_faces")
+    integer(c_int32_t) function lap_grid_plane_faces(grid, first, count, axes, nodes, &
+      cells) bind(c, name="lap_grid_plane_faces")
       import :: c_int32_t, c_int64_t, c_ptr
       type(c_ptr), value :: grid
       integer(c_int64_t), intent(inout), optional :: first
@@ -1559,8 +1557,8 @@ module lapidary
     !
     ! Errors: LAP_ERR_NULL_POINTER if grid is NULL, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: linear in the cells at
     ! the first call that asks for boxes, then none.
-    integer(c_int32_t) function lap_grid_cells(grid, count, boxes, cell_shells, shell_faces, half_faces) bind(c, &
-      name="lap_grid_cells")
+    integer(c_int32_t) function lap_grid_cells(grid, count, boxes, cell_shells, shell_faces, &
+      half_faces) bind(c, name="lap_grid_cells")
       import :: c_int32_t, c_int64_t, c_ptr
       type(c_ptr), value :: grid
       integer(c_int64_t), intent(inout), optional :: count
@@ -1568,6 +1566,43 @@ module lapidary
       type(c_ptr), intent(inout), optional :: cell_shells
       type(c_ptr), intent(inout), optional :: shell_faces
       type(c_ptr), intent(inout), optional :: half_faces
+    end function
+  end interface
+
+  public :: lap_grid_vertex_keys
+  interface
+    ! The keys of the vertices, as lap_complex_vertex_keys makes them: from the ids of triangles and the places of
+    ! planes in the whole grid, so that blocks which share a vertex give it the same key.
+    !
+    ! Outputs (each may be NULL; borrowed until the grid is freed): count; keys: 2 × count, the first number of a pair
+    ! never negative. Plane i across x has the number i, i counted in the whole grid; those across y follow, then those
+    ! across z.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if grid is NULL, LAP_ERR_INCONSISTENT for input that intersects itself,
+    ! LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: some hundred nanoseconds per vertex and face at the first call of this
+    ! or lap_grid_face_keys, then none.
+    integer(c_int32_t) function lap_grid_vertex_keys(grid, count, keys) bind(c, name="lap_grid_vertex_keys")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: grid
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: keys
+    end function
+  end interface
+
+  public :: lap_grid_face_keys
+  interface
+    ! The keys of the faces, walls first, as lap_complex_face_keys makes them: the face that two blocks share has the
+    ! same key in both, and no other face has.
+    !
+    ! Outputs (each may be NULL; borrowed until the grid is freed): count; keys: 2 × count, the first number of a pair
+    ! never negative.
+    !
+    ! Errors: as lap_grid_vertex_keys, and so are threads and cost.
+    integer(c_int32_t) function lap_grid_face_keys(grid, count, keys) bind(c, name="lap_grid_face_keys")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: grid
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: keys
     end function
   end interface
 
