@@ -143,6 +143,17 @@ module lapidary
   integer(c_int32_t), parameter, public :: LAP_NODE_FLUID = 1
   ! The node is neither in the fluid nor on the surface.
   integer(c_int32_t), parameter, public :: LAP_NODE_SOLID = 2
+  ! Handle lap_certified (type(c_ptr)). A complex as triangles over doubles that were checked exactly, repaired where
+  ! rounding had made triangles meet, and a report. Immutable: a const handle may be used from many threads at once.
+  !
+  ! Certified means: no triangle is without area; no two triangles meet but in a vertex or an edge that they share by
+  ! index (all pairs, of all faces); every cell's outer surface encloses a positive volume, every void in it a negative
+  ! one. All of that holds exactly for the doubles as they are, so the cells are disjoint solids that fill the input up
+  ! to the changes that the report tells.
+  !
+  ! Vertices, faces and cells have numbers of their own here, in the complex's order without those that are gone; maps
+  ! lead from the complex's numbers to these. Where nothing had to be repaired both are the same. The complex stays as
+  ! it is.
   ! Handle lap_complex (type(c_ptr)). Vertices, edges, faces and cells. Belongs to the handle that it was borrowed from.
   ! Ids are positions in the arrays, from 0. Immutable: a const handle may be used from many threads at once; what is
   ! computed on demand is computed once.
@@ -218,6 +229,45 @@ module lapidary
     ! Nonzero: run lap_complex_check on the result and fail with LAP_ERR_INCONSISTENT if it does not hold. 0, the
     ! default: do not.
     integer(c_int32_t) :: check
+  end type
+
+  ! Options of lap_certified_new; filled by lap_certify_options_init.
+  type, bind(c), public :: lap_certify_options
+    ! Size of this struct in bytes, as the caller was compiled.
+    integer(c_int32_t) :: struct_size
+    ! Nonzero: check and report, repair nothing. 0, the default: repair.
+    integer(c_int32_t) :: check_only
+    ! Nonzero: ask also about pairs of triangles of the input that no plane has cut. They meet only if the input
+    ! intersects itself, so this is for input that was not checked. 0, the default: do not.
+    integer(c_int32_t) :: check_input
+  end type
+
+  ! What lap_certified_report writes. Lengths are in the unit of the coordinates.
+  type, bind(c), public :: lap_certify_report
+    ! Size of this struct in bytes, as the caller was compiled.
+    integer(c_int32_t) :: struct_size
+    ! 1 if nothing remains, else 0: then lap_certified_open says where.
+    integer(c_int32_t) :: certified
+    ! With correctly rounded coordinates, before any repair: triangles without area; pairs of triangles that meet; outer
+    ! surfaces and voids of cells whose volume does not have its sign (asked only where the other two are 0).
+    integer(c_int64_t) :: flat_before
+    integer(c_int64_t) :: contacts_before
+    integer(c_int64_t) :: volumes_before
+    ! Vertices of the complex that are not at their correctly rounded coordinates any more, those that were merged into
+    ! others included; how many of them are vertices of the input mesh; how many were merged.
+    integer(c_int64_t) :: moved_vertices
+    integer(c_int64_t) :: moved_mesh_vertices
+    integer(c_int64_t) :: merged_vertices
+    ! Faces and cells that are gone: those of which too little is left for doubles. The maps list them.
+    integer(c_int64_t) :: removed_faces
+    integer(c_int64_t) :: removed_cells
+    ! What lap_certified_open lists.
+    integer(c_int64_t) :: open_pairs
+    integer(c_int64_t) :: open_cells
+    ! The largest change of any coordinate; and the unit in which vertices are moved: one ulp of the largest
+    ! |coordinate| of the mesh's bounding box.
+    real(c_double) :: largest_move
+    real(c_double) :: move_unit
   end type
 
   ! Options of lap_grid_new and lap_grid_new_patch; filled by lap_grid_options_init.
@@ -1251,6 +1301,183 @@ module lapidary
     end function
   end interface
 
+  public :: lap_certify_options_init
+  interface
+    ! Fills options of lap_certified_new with the defaults.
+    !
+    ! struct_size: pass (int32_t)sizeof(lap_certify_options); no more than that is written.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER; LAP_ERR_BAD_ARGUMENT if the size is not a multiple of 4 in 4..4096.
+    integer(c_int32_t) function lap_certify_options_init(options, struct_size) bind(c, name="lap_certify_options_init")
+      import :: c_int32_t, lap_certify_options
+      type(lap_certify_options), intent(inout), optional :: options
+      integer(c_int32_t), value :: struct_size
+    end function
+  end interface
+
+  public :: lap_certified_new
+  interface
+    ! Triangulates a complex without new vertices, checks the triangles exactly over the correctly rounded coordinates,
+    ! and repairs what rounding broke.
+    !
+    ! Repairs are tried in this order, each around a defect only, and kept if they help: vertices at one place are
+    ! merged, and cells without volume go with them; diagonals of faces are flipped; vertices made by planes are moved
+    ! by few units, first across the faces and along the lines whose order they break; vertices a few units apart are
+    ! merged. Vertices of the input mesh are moved, and vertices that no edge joins merged, only where all of that
+    ! failed. So the report is to be read: a result may be uncertified, and says so.
+    !
+    ! Inputs (borrowed for the call): complex; fixed_planes: n_fixed_planes indices of planes, as the complex uses them
+    ! (of coincident planes the lowest): vertices on these planes, block boundaries say, stay where they are;
+    ! fixed_vertices: n_fixed_vertices indices of further vertices that do; options: or NULL for the defaults. Others
+    ! may be merged into a vertex that stays. certified: receives the handle, NULL after an error or cancel; free it
+    ! with lap_certified_free. It does not need the complex to stay alive.
+    !
+    ! Errors: LAP_ERR_INCONSISTENT if a face contradicts itself (input that intersects itself), LAP_ERR_NULL_POINTER,
+    ! LAP_ERR_BAD_ARGUMENT (an index out of range included), LAP_ERR_TOO_LARGE, LAP_ERR_CANCELLED,
+    ! LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. That something remains uncertified is no error. Cost: n log n of the
+    ! triangles, mostly for those with a vertex made by planes; about a millisecond for each place that has to be
+    ! repaired.
+    integer(c_int32_t) function lap_certified_new(context, complex, n_fixed_planes, fixed_planes, n_fixed_vertices, &
+      fixed_vertices, options, certified) bind(c, name="lap_certified_new")
+      import :: c_int32_t, c_int64_t, c_ptr, lap_certify_options
+      type(c_ptr), value :: context
+      type(c_ptr), value :: complex
+      integer(c_int64_t), value :: n_fixed_planes
+      integer(c_int32_t), intent(in), optional :: fixed_planes(*)
+      integer(c_int64_t), value :: n_fixed_vertices
+      integer(c_int32_t), intent(in), optional :: fixed_vertices(*)
+      type(lap_certify_options), intent(in), optional :: options
+      type(c_ptr), intent(inout), optional :: certified
+    end function
+  end interface
+
+  public :: lap_certified_free
+  interface
+    ! Frees what was certified and all that was borrowed from it. NULL is allowed and does nothing.
+    !
+    ! Errors: none.
+    integer(c_int32_t) function lap_certified_free(certified) bind(c, name="lap_certified_free")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value :: certified
+    end function
+  end interface
+
+  public :: lap_certified_counts
+  interface
+    ! How many elements are left.
+    !
+    ! Outputs: each may be NULL.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if certified is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_certified_counts(certified, vertices, triangles, faces, &
+      cells) bind(c, name="lap_certified_counts")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: certified
+      integer(c_int64_t), intent(inout), optional :: vertices
+      integer(c_int64_t), intent(inout), optional :: triangles
+      integer(c_int64_t), intent(inout), optional :: faces
+      integer(c_int64_t), intent(inout), optional :: cells
+    end function
+  end interface
+
+  public :: lap_certified_vertices
+  interface
+    ! The vertices.
+    !
+    ! Outputs (each may be NULL; borrowed as the handle): count; xyz: 3 × count coordinates.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if certified is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_certified_vertices(certified, count, xyz) bind(c, name="lap_certified_vertices")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: certified
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: xyz
+    end function
+  end interface
+
+  public :: lap_certified_triangles
+  interface
+    ! The triangles, by faces.
+    !
+    ! Outputs (each may be NULL; borrowed as the handle): count; vertices: 3 × count, anticlockwise seen with the
+    ! face's normal up; cells: 2 × count, the cell behind each triangle and the cell before it (-1: outside), as
+    ! lap_complex_face_cells has them for faces; face_count; face_triangles: face_count + 1: face f has the triangles
+    ! face_triangles[f] up to, not including, face_triangles[f + 1]. Where a cell between two faces went, in whole or in
+    ! part, triangles of both are one: it is in the face with the lower number, between the cells that are left.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if certified is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_certified_triangles(certified, count, vertices, cells, face_count, &
+      face_triangles) bind(c, name="lap_certified_triangles")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: certified
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: vertices
+      type(c_ptr), intent(inout), optional :: cells
+      integer(c_int64_t), intent(inout), optional :: face_count
+      type(c_ptr), intent(inout), optional :: face_triangles
+    end function
+  end interface
+
+  public :: lap_certified_maps
+  interface
+    ! From the complex's vertices, faces and cells to those here.
+    !
+    ! Outputs (each may be NULL; borrowed as the handle): n_vertices, n_faces, n_cells: the numbers of the complex;
+    ! vertices, faces, cells: for each the index here, -1 for one that is gone. A vertex that was merged has the index
+    ! of the one that stands for it.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if certified is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_certified_maps(certified, n_vertices, vertices, n_faces, faces, n_cells, &
+      cells) bind(c, name="lap_certified_maps")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: certified
+      integer(c_int64_t), intent(inout), optional :: n_vertices
+      type(c_ptr), intent(inout), optional :: vertices
+      integer(c_int64_t), intent(inout), optional :: n_faces
+      type(c_ptr), intent(inout), optional :: faces
+      integer(c_int64_t), intent(inout), optional :: n_cells
+      type(c_ptr), intent(inout), optional :: cells
+    end function
+  end interface
+
+  public :: lap_certified_report
+  interface
+    ! The report.
+    !
+    ! report: written; struct_size: pass (int32_t)sizeof(lap_certify_report); no more than that is written.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER; LAP_ERR_BAD_ARGUMENT if the size is not a multiple of 4 in 4..4096. Threads: any.
+    ! Cost: none.
+    integer(c_int32_t) function lap_certified_report(certified, report, &
+      struct_size) bind(c, name="lap_certified_report")
+      import :: c_int32_t, c_ptr, lap_certify_report
+      type(c_ptr), value :: certified
+      type(lap_certify_report), intent(inout), optional :: report
+      integer(c_int32_t), value :: struct_size
+    end function
+  end interface
+
+  public :: lap_certified_open
+  interface
+    ! What remains uncertified, in numbers of the complex (not of this handle).
+    !
+    ! Outputs (each may be NULL; borrowed as the handle): n_pairs; pairs: 2 × n_pairs faces whose triangles meet, the
+    ! lower first; twice the same face for one that meets itself or has a triangle without area; n_cells; cells: those
+    ! with a volume, or a void, of the wrong sign (asked only if there are no pairs). All are empty for a certified
+    ! result.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if certified is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_certified_open(certified, n_pairs, pairs, n_cells, &
+      cells) bind(c, name="lap_certified_open")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: certified
+      integer(c_int64_t), intent(inout), optional :: n_pairs
+      type(c_ptr), intent(inout), optional :: pairs
+      integer(c_int64_t), intent(inout), optional :: n_cells
+      type(c_ptr), intent(inout), optional :: cells
+    end function
+  end interface
+
   public :: lap_grid_options_init
   interface
     ! Fills grid options with the defaults.
@@ -1603,6 +1830,138 @@ module lapidary
       type(c_ptr), value :: grid
       integer(c_int64_t), intent(inout), optional :: count
       type(c_ptr), intent(inout), optional :: keys
+    end function
+  end interface
+
+  public :: lap_grid_cell_moments
+  interface
+    ! Volumes of the cut cells.
+    !
+    ! Conventions of all these arrays: lengths, areas and volumes are in powers of the input's unit; fractions are
+    ! relative to the whole box or to the whole square of the grid, so in (0, 1]; coordinates are absolute, not relative
+    ! to the box. A box that is full has fraction 1 and its middle as its centroid, one that is empty has fraction 0. A
+    ! box in several parts has several cells, whose fractions add up. Every number is within one unit in the last place
+    ! of the exact value and depends on that value alone: not on threads, blocks or the order of the input. Sums close
+    ! accordingly: the areas of a cell's faces in grid planes and its boundary area vector cancel within half a unit in
+    ! the last place per term.
+    !
+    ! Outputs (each may be NULL; borrowed until the grid is freed): count: the number of cut cells; volumes: count;
+    ! fractions: count, volume over the volume of the box; centroids: 3 × count; flags: count, nonzero where a value of
+    ! this cell (boundary included) is beyond the range of double: it is then infinite, or 0.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if grid is NULL, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: about a microsecond per
+    ! cut cell at the first call of this function, lap_grid_cell_boundaries or lap_grid_plane_face_moments, then none.
+    integer(c_int32_t) function lap_grid_cell_moments(grid, count, volumes, fractions, centroids, &
+      flags) bind(c, name="lap_grid_cell_moments")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: grid
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: volumes
+      type(c_ptr), intent(inout), optional :: fractions
+      type(c_ptr), intent(inout), optional :: centroids
+      type(c_ptr), intent(inout), optional :: flags
+    end function
+  end interface
+
+  public :: lap_grid_cell_boundaries
+  interface
+    ! The embedded boundary of each cut cell: all its walls together.
+    !
+    ! Outputs (each may be NULL; borrowed until the grid is freed): count: the number of cut cells; area_vectors: 3 ×
+    ! count, the sum of the area vectors of the cell's walls, pointing out of the fluid; centroids: 3 × count, the mean
+    ! of the positions on the walls, weighted by area (the cell's centroid if it has no wall).
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if grid is NULL, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: as lap_grid_cell_moments.
+    integer(c_int32_t) function lap_grid_cell_boundaries(grid, count, area_vectors, &
+      centroids) bind(c, name="lap_grid_cell_boundaries")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: grid
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: area_vectors
+      type(c_ptr), intent(inout), optional :: centroids
+    end function
+  end interface
+
+  public :: lap_grid_plane_face_moments
+  interface
+    ! The faces in grid planes, in the order of lap_grid_plane_faces, which says what cells each joins.
+    !
+    ! Outputs (each may be NULL; borrowed until the grid is freed): count: the number of faces in grid planes; areas:
+    ! count; fractions: count, area over the area of the square; centroids: 3 × count, the coordinate across the plane
+    ! being the plane's node, bit for bit; flags: count, nonzero where a value is beyond the range of double: it is then
+    ! infinite, or 0. The area vector of a face is its area along the axis.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if grid is NULL, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: as lap_grid_cell_moments.
+    integer(c_int32_t) function lap_grid_plane_face_moments(grid, count, areas, fractions, centroids, &
+      flags) bind(c, name="lap_grid_plane_face_moments")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: grid
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: areas
+      type(c_ptr), intent(inout), optional :: fractions
+      type(c_ptr), intent(inout), optional :: centroids
+      type(c_ptr), intent(inout), optional :: flags
+    end function
+  end interface
+
+  public :: lap_grid_wall_moments
+  interface
+    ! The walls one by one, in the order of lap_grid_walls, which says what triangle, tag and cell each has.
+    !
+    ! Outputs (each may be NULL; borrowed until the grid is freed): count: the number of walls; area_vectors: 3 ×
+    ! count, pointing out of the fluid; centroids: 3 × count.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if grid is NULL, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: some 200 ns and 48 bytes
+    ! per wall at the first call, then none.
+    integer(c_int32_t) function lap_grid_wall_moments(grid, count, area_vectors, &
+      centroids) bind(c, name="lap_grid_wall_moments")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: grid
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: area_vectors
+      type(c_ptr), intent(inout), optional :: centroids
+    end function
+  end interface
+
+  public :: lap_grid_cell_walls
+  interface
+    ! The walls of each cut cell.
+    !
+    ! Outputs (each may be NULL; borrowed until the grid is freed): count: the number of cut cells; offsets: count + 1;
+    ! walls: those of cell c are walls[offsets[c]] up to, not including, walls[offsets[c + 1]], rising. With
+    ! lap_grid_walls they lead to the triangles and tags behind a cell.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if grid is NULL, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: linear in the walls at
+    ! the first call, then none.
+    integer(c_int32_t) function lap_grid_cell_walls(grid, count, offsets, walls) bind(c, name="lap_grid_cell_walls")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: grid
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: offsets
+      type(c_ptr), intent(inout), optional :: walls
+    end function
+  end interface
+
+  public :: lap_grid_cell_tags
+  interface
+    ! The embedded boundary of each cut cell by tag of the triangles: what a boundary patch has of the cell.
+    !
+    ! Outputs (each may be NULL; borrowed until the grid is freed): count: the number of cut cells; offsets: count + 1:
+    ! cell c has the entries offsets[c] up to, not including, offsets[c + 1]; tags: the tag of each entry, rising in a
+    ! cell (0 for a mesh without tags); area_vectors: 3 per entry, pointing out of the fluid; centroids: 3 per entry,
+    ! weighted by area.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if grid is NULL, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: as lap_grid_cell_moments,
+    ! and again for cells with several tags, at the first call, then none.
+    integer(c_int32_t) function lap_grid_cell_tags(grid, count, offsets, tags, area_vectors, &
+      centroids) bind(c, name="lap_grid_cell_tags")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: grid
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: offsets
+      type(c_ptr), intent(inout), optional :: tags
+      type(c_ptr), intent(inout), optional :: area_vectors
+      type(c_ptr), intent(inout), optional :: centroids
     end function
   end interface
 
