@@ -1,7 +1,12 @@
-//! Generates `include/lapidary.h` from `src/capi` and names the shared library.
+//! Generates `include/lapidary.h` from `src/capi`, the Fortran module `include/lapidary.f90` from that header, and names the
+//! shared library.
 //!
-//! The header is committed. It is written only when its text changes, and failure to write it (a read-only checkout,
-//! a vendored crate) is a warning, not an error: the committed one is then the right one anyway.
+//! Both are committed. They are written only when their text changes, and failure to write them (a read-only checkout,
+//! a vendored crate) is a warning, not an error: the committed ones are then the right ones anyway. A header that the
+//! Fortran generator does not understand is an error.
+
+#[path = "fortran/generator.rs"]
+mod fortran;
 
 use std::path::Path;
 
@@ -41,7 +46,7 @@ fn main() {
     // For tests that call the C compiler.
     println!("cargo:rustc-env=LAPIDARY_TARGET={}", env("TARGET"));
     if let Err(reason) = write_header(root) {
-        println!("cargo:warning=include/lapidary.h was not brought up to date: {reason}");
+        println!("cargo:warning=what is in include was not brought up to date: {reason}");
     }
 }
 
@@ -60,14 +65,22 @@ fn write_header(root: &Path) -> Result<(), String> {
     let mut text = Vec::new();
     builder.generate().map_err(|e| e.to_string())?.write(&mut text);
     let text = tidy(&String::from_utf8_lossy(&text));
-    let header = root.join("include/lapidary.h");
-    println!("cargo:rerun-if-changed={}", header.display());
-    if std::fs::read(&header).is_ok_and(|old| old == text.as_bytes()) {
+    bring_up_to_date(&root.join("include/lapidary.h"), &text)?;
+    let template = root.join("fortran/template.f90");
+    println!("cargo:rerun-if-changed=fortran/generator.rs");
+    println!("cargo:rerun-if-changed={}", template.display());
+    let template = std::fs::read_to_string(template).map_err(|e| e.to_string())?;
+    let module = fortran::module(&text, &template).unwrap_or_else(|e| panic!("the Fortran module: {e}"));
+    bring_up_to_date(&root.join("include/lapidary.f90"), &module)
+}
+
+fn bring_up_to_date(file: &Path, text: &str) -> Result<(), String> {
+    println!("cargo:rerun-if-changed={}", file.display());
+    if std::fs::read(file).is_ok_and(|old| old == text.as_bytes()) {
         return Ok(());
     }
-    std::fs::create_dir_all(root.join("include"))
-        .and_then(|()| std::fs::write(&header, text))
-        .map_err(|e| e.to_string())
+    let folder = file.parent().ok_or("no folder")?;
+    std::fs::create_dir_all(folder).and_then(|()| std::fs::write(file, text)).map_err(|e| e.to_string())
 }
 
 /// Puts comments of one line on one line.

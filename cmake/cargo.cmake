@@ -56,3 +56,9 @@ set_target_properties(
              INTERFACE_INCLUDE_DIRECTORIES "${PROJECT_SOURCE_DIR}/include"
              INTERFACE_LINK_LIBRARIES "${lapidary_system_libraries}")
 add_dependencies(lapidary::static lapidary_cargo)
+
+# Module files belong to one compiler, so the module comes as a source: each target that links this compiles it.
+add_library(lapidary::fortran INTERFACE IMPORTED GLOBAL)
+set_target_properties(
+  lapidary::fortran PROPERTIES INTERFACE_SOURCES "${PROJECT_SOURCE_DIR}/include/lapidary.f90"
+                               INTERFACE_LINK_LIBRARIES lapidary::lapidary)

@@ -1,10 +1,10 @@
-# Install rules: libraries with their links, headers, package config, pkg-config file, licences.
+# Install rules: libraries with their links, headers, the Fortran module as source, package config, pkg-config file, licences.
 
 install(PROGRAMS "${lapidary_so}" DESTINATION "${CMAKE_INSTALL_LIBDIR}")
 install(FILES "${lapidary_library_dir}/${lapidary_soname}" "${lapidary_library_dir}/liblapidary.so" "${lapidary_a}"
         DESTINATION "${CMAKE_INSTALL_LIBDIR}")
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
-        FILES_MATCHING PATTERN "lapidary.h" PATTERN "lapidary.hpp")
+        FILES_MATCHING PATTERN "lapidary.h" PATTERN "lapidary.hpp" PATTERN "lapidary.f90")
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE-MIT" "${PROJECT_SOURCE_DIR}/LICENSE-APACHE"
         DESTINATION "${CMAKE_INSTALL_DATAROOTDIR}/licenses/lapidary")
 

@@ -324,6 +324,11 @@ typedef struct lap_grid_options {
      */
     int32_t outside;
     /*
+     Nonzero: run lap_grid_check on the result and fail with LAP_ERR_INCONSISTENT if it does not hold. 0, the default: do
+     not.
+     */
+    int32_t check;
+    /*
      The block: boxes block_low[a] up to, not including, block_high[a] of the whole grid along axis a (0: x, 1: y, 2: z). -1
      as block_high[a] stands for the number of boxes. Default: 0 and -1, the whole grid.
      */
@@ -1335,6 +1340,31 @@ int32_t lap_grid_box(const struct lap_grid *grid,
                      int32_t *flag,
                      int32_t *first,
                      int32_t *count);
+
+/*
+ The cut cells as an ordinary complex, on which all functions for lap_complex work. Its cells and its faces are numbered as
+ here, and so are its vertices; its planes are the block's grid planes, those across x first, then y, then z, each by rising
+ coordinate, with the equation x - node = 0. Its triangles are those of the mesh; where the fluid is outside they
+ are reversed. A face towards a full box or on the boundary of the block has a cell on one side only, which may be the front.
+ The volume and the Euler characteristic are those of the cut cells, not of the solid.
+
+ complex: borrowed until the grid is freed; do not free it.
+
+ Errors: LAP_ERR_NULL_POINTER, LAP_ERR_TOO_LARGE, LAP_ERR_INCONSISTENT. Threads: any. Cost: linear in the cut cells and
+ about as much memory again, at the first call, then none.
+ */
+int32_t lap_grid_complex(const struct lap_grid *grid,
+                         const struct lap_complex **complex);
+
+/*
+ Checks that a cut grid is consistent: indices in range, loops closed, faces between the cells that name them, cells
+ closed.
+
+ Errors: LAP_ERR_INCONSISTENT with a message that names the element; LAP_ERR_NULL_POINTER, LAP_ERR_OUT_OF_MEMORY,
+ LAP_ERR_BUSY. Cost: linear in the cut cells, and a pass over the flags.
+ */
+int32_t lap_grid_check(struct lap_context *context,
+                       const struct lap_grid *grid);
 
 /*
  How many stages the making of the grid ran through.

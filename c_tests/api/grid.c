@@ -312,6 +312,41 @@ static void moments(const lap_grid *grid, double volume)
     free(sums);
 }
 
+/* The cut cells as an ordinary complex: the same elements, coordinates, volumes and keys. */
+static void as_complex(lap_context *context, const lap_grid *grid)
+{
+    const lap_complex *complex = NULL, *again = NULL;
+    const double *a = NULL, *b = NULL;
+    const int32_t *x = NULL, *y = NULL, *z = NULL, *u = NULL, *v = NULL, *w = NULL;
+    const int64_t *ka = NULL, *kb = NULL;
+    int64_t n[3], count = -1, n_faces, n_vertices, n_cells, i;
+
+    STATUS(LAP_OK, lap_grid_counts(grid, NULL, NULL, NULL, &n_cells, &n_faces, NULL, &n_vertices));
+    STATUS(LAP_OK, lap_grid_complex(grid, &complex));
+    STATUS(LAP_OK, lap_grid_complex(grid, &again));
+    CHECK(complex != NULL && complex == again);
+    STATUS(LAP_ERR_NULL_POINTER, lap_grid_complex(grid, NULL));
+    STATUS(LAP_ERR_NULL_POINTER, lap_grid_complex(NULL, &complex));
+    STATUS_IN(context, LAP_OK, lap_complex_check(context, complex));
+    STATUS(LAP_OK, lap_complex_counts(complex, &n[0], NULL, &n[1], &n[2], NULL, NULL, NULL));
+    CHECK(n[0] == n_vertices && n[1] == n_faces && n[2] == n_cells);
+    STATUS(LAP_OK, lap_complex_vertices(complex, &count, &a));
+    STATUS(LAP_OK, lap_grid_vertices(grid, NULL, &b, NULL));
+    CHECK(memcmp(a, b, 3 * (size_t)count * sizeof *a) == 0);
+    STATUS(LAP_OK, lap_complex_cells(complex, &count, &x, &y, &z));
+    STATUS(LAP_OK, lap_grid_cells(grid, NULL, NULL, &u, &v, &w));
+    CHECK(memcmp(x, u, ((size_t)count + 1) * sizeof *x) == 0 && memcmp(z, w, (size_t)v[u[count]] * sizeof *z) == 0);
+    STATUS(LAP_OK, lap_complex_cell_moments(complex, &count, &a, NULL, NULL));
+    STATUS(LAP_OK, lap_grid_cell_moments(grid, NULL, &b, NULL, NULL, NULL));
+    for (i = 0; i < count; ++i) CHECK(a[i] == b[i]);
+    STATUS(LAP_OK, lap_complex_vertex_keys(complex, &count, &ka));
+    STATUS(LAP_OK, lap_grid_vertex_keys(grid, NULL, &kb));
+    CHECK(memcmp(ka, kb, 2 * (size_t)count * sizeof *ka) == 0);
+    STATUS(LAP_OK, lap_complex_face_keys(complex, &count, &ka));
+    STATUS(LAP_OK, lap_grid_face_keys(grid, NULL, &kb));
+    CHECK(memcmp(ka, kb, 2 * (size_t)count * sizeof *ka) == 0);
+}
+
 /* Keys are distinct. */
 static void distinct_keys(const lap_grid *grid)
 {
@@ -380,6 +415,11 @@ static void known_solid(lap_context *context, const lap_mesh *mesh, const int32_
     structure(grid, 12, tags);
     moments(grid, 8);
     distinct_keys(grid);
+    as_complex(context, grid);
+    STATUS_IN(context, LAP_OK, lap_grid_check(context, grid));
+    STATUS(LAP_ERR_NULL_POINTER, lap_grid_check(context, NULL));
+    CHECK(has_message(context));
+    STATUS(LAP_ERR_NULL_POINTER, lap_grid_check(NULL, grid));
     for (low = found = 0; low < 3; ++low) {
         STATUS(LAP_OK, lap_grid_options_init(&o, (int32_t)sizeof o));
         o.block_low[0] = (int32_t)low;
@@ -400,6 +440,7 @@ static void known_solid(lap_context *context, const lap_mesh *mesh, const int32_
 
     STATUS(LAP_OK, lap_grid_options_init(&o, (int32_t)sizeof o));
     o.outside = 1;
+    o.check = 1;
     STATUS_IN(context, LAP_OK, make(context, mesh, &o, &grid));
     if (grid == NULL) return;
     STATUS(LAP_OK, lap_grid_counts(grid, &n[0], &n[1], &n[2], &n[3], NULL, NULL, NULL));
@@ -408,6 +449,7 @@ static void known_solid(lap_context *context, const lap_mesh *mesh, const int32_
     boxes_and_cells(grid, 3, 3, 2);
     structure(grid, 12, tags);
     moments(grid, 48 - 8);
+    as_complex(context, grid);
     distinct_keys(grid);
     STATUS(LAP_OK, lap_grid_free(grid));
 }

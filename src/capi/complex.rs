@@ -35,6 +35,8 @@ pub struct lap_complex {
     pub threads: usize,
     pub derived: Derived,
     pub keyed: Keyed,
+    /// Some of a solid's cells only: faces on planes may have one cell.
+    pub part: bool,
     origins: OnceLock<(Vec<i32>, Vec<[i32; 3]>)>,
     supports: OnceLock<(Vec<i32>, Vec<i32>)>,
 }
@@ -59,6 +61,7 @@ impl lap_complex {
             threads,
             derived: Derived::default(),
             keyed: Keyed::default(),
+            part: false,
             origins: OnceLock::new(),
             supports: OnceLock::new(),
         })

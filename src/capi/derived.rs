@@ -225,7 +225,10 @@ pub unsafe extern "C" fn lap_complex_euler(complex: *const lap_complex, output: 
 pub unsafe extern "C" fn lap_complex_check(context: *mut lap_context, complex: *const lap_complex) -> i32 {
     with_context(context, |state, host| {
         let complex = unsafe { handle(complex) }.map_err(null_complex)?;
-        state.run(host, |_| check(&complex.data))
+        let whole = !complex.part;
+        state.run(host, |_| {
+            if whole { check(&complex.data) } else { complex::check_part(&complex.data).map_err(Error::inconsistent) }
+        })
     })
 }
 

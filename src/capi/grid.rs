@@ -1,14 +1,16 @@
 //! The noun `lap_grid`, first part: making one, and what the block's boxes are. `grid_cells` has the polyhedra, `grid_moments`
 //! the arrays of embedded-boundary solvers, `grid_fluid` what connects cells and full boxes.
 
+use super::complex::lap_complex;
 use super::context::{State, c_string, lap_context, with_context};
 use super::derived::on_demand;
 use super::grid_cells::Views;
 use super::grid_moments::Arrays;
 use super::guard::{Host, guard};
+use super::keys::Keyed;
 use super::mesh::{bad_options, lap_mesh};
 use super::view::{address, handle, index, input, into_handle, put, read_options, write_options};
-use crate::base::{Error, Run, Status};
+use crate::base::{Error, PlaneId, Run, Status};
 use crate::grid::{self, CUT, EMPTY, FULL, GridCells, GridOptions, Lattice};
 use crate::mesh::TriMesh;
 use std::ffi::{CString, c_char};
@@ -67,6 +69,7 @@ pub struct lap_grid {
     /// Empty, full and cut boxes.
     tally: OnceLock<[i64; 3]>,
     box_offsets: OnceLock<Vec<u32>>,
+    complex: OnceLock<Result<lap_complex, Status>>,
     pub views: Views,
     pub arrays: Arrays,
 }
@@ -106,6 +109,7 @@ impl lap_grid {
             stages: stages.iter().map(|(name, seconds)| (c_string(name), *seconds)).collect(),
             tally: OnceLock::new(),
             box_offsets: OnceLock::new(),
+            complex: OnceLock::new(),
             views: Views::default(),
             arrays: Arrays::default(),
         })
@@ -126,6 +130,9 @@ pub struct lap_grid_options {
     /// Nonzero: the fluid is outside the solid, as in external flow (the grid's box minus the bodies). 0, the default: the
     /// fluid is the solid's inside.
     pub outside: i32,
+    /// Nonzero: run lap_grid_check on the result and fail with LAP_ERR_INCONSISTENT if it does not hold. 0, the default: do
+    /// not.
+    pub check: i32,
     /// The block: boxes block_low[a] up to, not including, block_high[a] of the whole grid along axis a (0: x, 1: y, 2: z). -1
     /// as block_high[a] stands for the number of boxes. Default: 0 and -1, the whole grid.
     pub block_low: [i32; 3],
@@ -139,6 +146,7 @@ pub struct lap_grid_options {
 const DEFAULTS: lap_grid_options = lap_grid_options {
     struct_size: size_of::<lap_grid_options>() as i32,
     outside: 0,
+    check: 0,
     block_low: [0; 3],
     block_high: [-1; 3],
     known: LAP_NODE_UNKNOWN,
@@ -201,6 +209,7 @@ pub unsafe extern "C" fn lap_grid_new(
 struct Order {
     lattice: Lattice,
     options: GridOptions,
+    check: bool,
 }
 
 impl Order {
@@ -226,7 +235,7 @@ impl Order {
             LAP_NODE_FLUID | LAP_NODE_SOLID => Some((known_node(&lattice, &options)?, options.known == LAP_NODE_FLUID)),
             other => return Err(Error::new(Status::BadArgument, format!("known: {other} is no LAP_NODE_*"))),
         };
-        Ok(Self { lattice, options: GridOptions { outside: options.outside != 0, known } })
+        Ok(Self { lattice, options: GridOptions { outside: options.outside != 0, known }, check: options.check != 0 })
     }
 }
 
@@ -254,6 +263,9 @@ fn make(
     let (data, stages) = state.run(host, |run| {
         let mesh = mesh(run)?;
         let data = grid::cut_grid(&mesh, order.lattice, &order.options, run)?;
+        if order.check {
+            data.check().map_err(Error::inconsistent)?;
+        }
         Ok((data, run.take_stages()))
     })?;
     lap_grid::new(data, state.threads(), stages)
@@ -445,6 +457,55 @@ pub unsafe extern "C" fn lap_grid_box(
         }
         Ok(())
     })
+}
+
+/// The cut cells as an ordinary complex, on which all functions for lap_complex work. Its cells and its faces are numbered as
+/// here, and so are its vertices; its planes are the block's grid planes, those across x first, then y, then z, each by rising
+/// coordinate, with the equation x - node = 0. Its triangles are those of the mesh; where the fluid is outside they
+/// are reversed. A face towards a full box or on the boundary of the block has a cell on one side only, which may be the front.
+/// The volume and the Euler characteristic are those of the cut cells, not of the solid.
+///
+/// complex: borrowed until the grid is freed; do not free it.
+///
+/// Errors: LAP_ERR_NULL_POINTER, LAP_ERR_TOO_LARGE, LAP_ERR_INCONSISTENT. Threads: any. Cost: linear in the cut cells and
+/// about as much memory again, at the first call, then none.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn lap_grid_complex(grid: *const lap_grid, complex: *mut *const lap_complex) -> i32 {
+    guard(|_| {
+        let grid = unsafe { handle(grid) }?;
+        if complex.is_null() {
+            return Err(Status::NullPointer);
+        }
+        let made = on_demand(grid.threads, &grid.complex, || to_complex(grid))?;
+        unsafe { put(complex, std::ptr::from_ref(made.as_ref().map_err(|status| *status)?)) };
+        Ok(())
+    })
+}
+
+fn to_complex(grid: &lap_grid) -> Result<lap_complex, Status> {
+    let g = &grid.data;
+    let mut complex = lap_complex::new(grid::to_complex(g), grid.threads)?;
+    complex.part = true;
+    let planes = (0..g.planes.len()).map(|p| g.lattice.global_plane(PlaneId::of(p)));
+    complex.keyed = Keyed::new(grid.triangle_ids.clone(), planes.collect());
+    Ok(complex)
+}
+
+/// Checks that a cut grid is consistent: indices in range, loops closed, faces between the cells that name them, cells
+/// closed.
+///
+/// Errors: LAP_ERR_INCONSISTENT with a message that names the element; LAP_ERR_NULL_POINTER, LAP_ERR_OUT_OF_MEMORY,
+/// LAP_ERR_BUSY. Cost: linear in the cut cells, and a pass over the flags.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn lap_grid_check(context: *mut lap_context, grid: *const lap_grid) -> i32 {
+    with_context(context, |state, host| {
+        let grid = unsafe { handle(grid) }.map_err(null_grid)?;
+        state.run(host, |_| grid.data.check().map_err(Error::inconsistent))
+    })
+}
+
+pub fn null_grid(status: Status) -> Error {
+    Error::new(status, "grid is NULL")
 }
 
 /// How many stages the making of the grid ran through.

@@ -22,6 +22,14 @@ pub struct Keyed {
     keys: OnceLock<Result<Keys, Status>>,
 }
 
+impl Keyed {
+    /// With ids for planes of which no two coincide.
+    pub fn new(triangles: Option<Arc<[i64]>>, planes: Vec<i64>) -> Self {
+        let own = (0..planes.len()).map(PlaneId::of).collect();
+        Self { triangles, planes: Some((planes, own)), keys: OnceLock::new() }
+    }
+}
+
 /// Of vertices, and of faces.
 struct Keys {
     vertices: Vec<Key>,

@@ -1,0 +1,2050 @@
+! Lapidary: exact partitions of 3-D space, for Fortran. include/lapidary.f90 is generated from include/lapidary.h and
+! fortran/template.f90: do not edit it. What the calls do, their units, ownership, errors and costs: in the comments
+! below, which are those of the C header.
+!
+! How C is written in Fortran here:
+!
+!   status        Every function returns integer(c_int32_t): LAP_OK or one of LAP_ERR_*.
+!   handles       type(c_ptr). A call that makes or lends one sets a type(c_ptr) variable.
+!   NULL          Outputs, input arrays and options are optional: leave out what you do not want, and use keywords for
+!                 the rest. For a handle or a user pointer NULL is c_null_ptr, for a callback c_null_funptr.
+!   input arrays  Assumed-size: pass a whole array of any rank, xyz(3, n) for example. Elements are in C's order then.
+!   options       Derived types with bind(c). Fill them first:
+!                 status = lap_mesh_options_init(options, int(c_sizeof(options), c_int32_t))
+!   views         A call lends an address and a count, valid as long as the handle and not to be written. lap_view
+!                 makes array pointers of them: call lap_view(address, count, array) for array(:), and
+!                 call lap_view(address, 3, count, array) for array(:, :) of three rows and a column per element.
+!                 uint8_t is integer(c_int8_t), which is signed.
+!   strings       lap_text(address) is a copy of a C string.
+!   callbacks     bind(c) procedures with the interface lap_progress or lap_log, handed over as c_funloc(procedure).
+!
+! Indices. Array pointers count from 1; ids and offsets in arrays count from 0 as in C, and -1 is none. So element i of
+! C is array(i + 1), and row i (from 0) of a CSR pair is items(offsets(i + 1) + 1 : offsets(i + 2)). Or give a pointer
+! the lower bound 0, and ids index it as they are:
+!
+!   real(c_double), pointer :: xyz(:, :)
+!   call lap_view(address, 3, count, xyz)
+!   xyz(1:, 0:) => xyz
+!   x = xyz(:, corner_vertices(k))
+!
+! Build: compile this file with the compiler of the program (module files are not portable) and link the library. With
+! CMake, target_link_libraries(program PRIVATE lapidary::fortran) does both.
+module lapidary
+  use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_double, c_f_pointer, c_funptr, c_int32_t, c_int64_t, &
+    c_int8_t, c_ptr, c_size_t
+  implicit none
+  private
+
+  ! What a call has lent, as an array: lap_view(address, count, array(:)) or
+  ! lap_view(address, rows, count, array(:, :)). NULL, or a count of 0: an array of size 0.
+  public :: lap_view
+  interface lap_view
+    module procedure view_int8, view_int32, view_int64, view_double
+    module procedure columns_int32, columns_int64, columns_double
+  end interface
+
+  ! A copy of a C string ('' for NULL).
+  public :: lap_text
+
+  ! What a view of nothing points to.
+  integer(c_int8_t), target, save :: no_int8(0)
+  integer(c_int32_t), target, save :: no_int32(0)
+  integer(c_int64_t), target, save :: no_int64(0)
+  real(c_double), target, save :: no_double(0)
+
+  ! Success.
+  integer(c_int32_t), parameter, public :: LAP_OK = 0
+  ! A pointer that must not be NULL is NULL.
+  integer(c_int32_t), parameter, public :: LAP_ERR_NULL_POINTER = 1
+  ! A count, an index, an option or a constant is out of its range.
+  integer(c_int32_t), parameter, public :: LAP_ERR_BAD_ARGUMENT = 2
+  ! A count exceeds the 32-bit index type.
+  integer(c_int32_t), parameter, public :: LAP_ERR_TOO_LARGE = 3
+  ! The input mesh has defects; lap_context_last_defects lists them.
+  integer(c_int32_t), parameter, public :: LAP_ERR_BAD_MESH = 4
+  ! A plane is not finite or has a zero normal; lap_context_last_defects lists them.
+  integer(c_int32_t), parameter, public :: LAP_ERR_BAD_PLANE = 5
+  ! The progress callback asked to stop. Nothing is left behind.
+  integer(c_int32_t), parameter, public :: LAP_ERR_CANCELLED = 6
+  ! Memory or a thread could not be had.
+  integer(c_int32_t), parameter, public :: LAP_ERR_OUT_OF_MEMORY = 7
+  ! The geometry contradicts itself: the input intersects itself and was not checked for it.
+  integer(c_int32_t), parameter, public :: LAP_ERR_INCONSISTENT = 8
+  ! A fault of the library. The process and all handles stay usable.
+  integer(c_int32_t), parameter, public :: LAP_ERR_INTERNAL = 9
+  ! The context is in use: by another thread, or by the very call whose callback makes this one.
+  integer(c_int32_t), parameter, public :: LAP_ERR_BUSY = 10
+  ! A coordinate is NaN or infinite. ids: vertex
+  integer(c_int32_t), parameter, public :: LAP_DEFECT_NON_FINITE_COORDINATE = 1
+  ! A vertex index is negative or too large. ids: triangle, corner (0, 1, 2), the index as given
+  integer(c_int32_t), parameter, public :: LAP_DEFECT_INDEX_OUT_OF_RANGE = 2
+  ! The corners of a triangle lie on a line, exactly. ids: triangle
+  integer(c_int32_t), parameter, public :: LAP_DEFECT_DEGENERATE_TRIANGLE = 3
+  ! The triangles at an edge do not balance in number. ids: vertex, vertex, one triangle there
+  integer(c_int32_t), parameter, public :: LAP_DEFECT_OPEN_EDGE = 4
+  ! The triangles at an edge balance in number, not in orientation. ids: vertex, vertex, one triangle there
+  integer(c_int32_t), parameter, public :: LAP_DEFECT_INCONSISTENT_ORIENTATION = 5
+  ! Two vertices have equal coordinates. ids: lower vertex, higher vertex
+  integer(c_int32_t), parameter, public :: LAP_DEFECT_DUPLICATE_VERTEX = 6
+  ! Signed volume does not alternate with nesting depth. ids: a triangle of the shell
+  integer(c_int32_t), parameter, public :: LAP_DEFECT_WRONG_NESTING = 7
+  ! A shell without volume. ids: a triangle of the shell
+  integer(c_int32_t), parameter, public :: LAP_DEFECT_ZERO_VOLUME = 8
+  ! Two triangles meet outside what they share by index. ids: triangle, triangle
+  integer(c_int32_t), parameter, public :: LAP_DEFECT_SELF_INTERSECTION = 9
+  ! There are no triangles. ids: none
+  integer(c_int32_t), parameter, public :: LAP_DEFECT_EMPTY = 10
+  ! A coefficient of a plane is NaN or infinite. ids: plane
+  integer(c_int32_t), parameter, public :: LAP_DEFECT_NON_FINITE_PLANE = 11
+  ! The normal of a plane is zero. ids: plane
+  integer(c_int32_t), parameter, public :: LAP_DEFECT_ZERO_NORMAL = 12
+  ! Largest number of threads of a context.
+  integer(c_int32_t), parameter, public :: LAP_MAX_THREADS = 1024
+  ! Level of a log message: what the library does and why.
+  integer(c_int32_t), parameter, public :: LAP_LOG_INFO = 0
+  ! A point outside the solid.
+  integer(c_int32_t), parameter, public :: LAP_PLACE_OUTSIDE = -1
+  ! A point on the surface of the solid.
+  integer(c_int32_t), parameter, public :: LAP_PLACE_SURFACE = 0
+  ! A point inside the solid.
+  integer(c_int32_t), parameter, public :: LAP_PLACE_INSIDE = 1
+  ! A vertex of the input mesh. ids: its index in the caller's array
+  integer(c_int32_t), parameter, public :: LAP_VERTEX_MESH = 0
+  ! Where an edge of the mesh crosses a plane. ids: the two vertices of the edge, the lowest plane
+  integer(c_int32_t), parameter, public :: LAP_VERTEX_EDGE = 1
+  ! Inside a triangle of the mesh, on two planes. ids: triangle, plane, plane
+  integer(c_int32_t), parameter, public :: LAP_VERTEX_TRIANGLE = 2
+  ! Inside the solid, on three planes. ids: plane, plane, plane
+  integer(c_int32_t), parameter, public :: LAP_VERTEX_PLANES = 3
+  ! A face that lies on a triangle of the input mesh.
+  integer(c_int32_t), parameter, public :: LAP_SUPPORT_TRIANGLE = 0
+  ! A face that lies on a plane.
+  integer(c_int32_t), parameter, public :: LAP_SUPPORT_PLANE = 1
+  ! Faces with holes: one polygon per loop.
+  integer(c_int32_t), parameter, public :: LAP_FACES_HOLES = 0
+  ! Every hole joined to its outer loop by a bridge that is walked twice: one polygon per face.
+  integer(c_int32_t), parameter, public :: LAP_FACES_BRIDGED = 1
+  ! Triangles.
+  integer(c_int32_t), parameter, public :: LAP_FACES_TRIANGLES = 2
+  ! The open box holds no fluid.
+  integer(c_int32_t), parameter, public :: LAP_BOX_EMPTY = 0
+  ! The closed box misses the surface and is fluid: one cell, the box itself, which is not stored as a polyhedron.
+  integer(c_int32_t), parameter, public :: LAP_BOX_FULL = 1
+  ! The surface touches the closed box, and the open box holds fluid: one or more cells, stored as polyhedra. A box with
+  ! a wall on its side and a volume fraction of 1 is cut.
+  integer(c_int32_t), parameter, public :: LAP_BOX_CUT = 2
+  ! Where a cell is named: there is none, the face is on the boundary of the block.
+  integer(c_int32_t), parameter, public :: LAP_CELL_NONE = -1
+  ! Where a cell is named: the one cell of a full box.
+  integer(c_int32_t), parameter, public :: LAP_CELL_FULL = -2
+  ! Nothing is told about a node: the mesh is whole.
+  integer(c_int32_t), parameter, public :: LAP_NODE_UNKNOWN = 0
+  ! The node is in the fluid, and not on the surface.
+  integer(c_int32_t), parameter, public :: LAP_NODE_FLUID = 1
+  ! The node is neither in the fluid nor on the surface.
+  integer(c_int32_t), parameter, public :: LAP_NODE_SOLID = 2
+  ! Handle lap_certified (type(c_ptr)). A complex as triangles over doubles that were checked exactly, repaired where
+  ! rounding had made triangles meet, and a report. Immutable: a const handle may be used from many threads at once.
+  !
+  ! Certified means: no triangle is without area; no two triangles meet but in a vertex or an edge that they share by
+  ! index (all pairs, of all faces); every cell's outer surface encloses a positive volume, every void in it a negative
+  ! one. All of that holds exactly for the doubles as they are, so the cells are disjoint solids that fill the input up
+  ! to the changes that the report tells.
+  !
+  ! Vertices, faces and cells have numbers of their own here, in the complex's order without those that are gone; maps
+  ! lead from the complex's numbers to these. Where nothing had to be repaired both are the same. The complex stays as
+  ! it is.
+  ! Handle lap_complex (type(c_ptr)). Vertices, edges, faces and cells. Belongs to the handle that it was borrowed from.
+  ! Ids are positions in the arrays, from 0. Immutable: a const handle may be used from many threads at once; what is
+  ! computed on demand is computed once.
+  !
+  ! Half-faces: side s of face f is the half-face 2 f + s. Side 0 is the back, from which the face's normal points away;
+  ! it belongs to the cell behind the face, the owner, whose outward normal the face's normal is. Side 1 is the front;
+  ! it belongs to the neighbour, and there the outward normal is the face's normal reversed.
+  ! Handle lap_context (type(c_ptr)). What calls need besides their data: threads, callbacks, the last error, predicate
+  ! counters. One thread uses a context at a time; any number of contexts may exist. Other handles do not need the
+  ! context that made them once they are made, so it may be freed before them. Do not carry a context over a fork().
+  ! Handle lap_cut (type(c_ptr)). The cells into which planes divide a solid, and how they were found. Immutable: a
+  ! const handle may be used from many threads at once.
+  ! Handle lap_grid (type(c_ptr)). A block of a rectilinear grid, cut by a surface: a byte per box, polyhedra for the
+  ! boxes that are cut, and on demand the arrays of embedded-boundary solvers.
+  !
+  ! Boxes and nodes. A block of nx × ny × nz boxes has (nx + 1) × (ny + 1) × (nz + 1) nodes. Box (i, j, k) of the
+  ! block has the number i + nx (j + ny k), its low corner is node (i, j, k), and node (i, j, k) has the number i + (nx
+  ! + 1) (j + (ny + 1) k). All indices count from the block's low corner unless it says that they are of the whole grid.
+  !
+  ! Cells. Box b holds as many cells as the surface divides its fluid into; they are numbered by rising box. A cell is
+  ! bounded by faces: walls, which lie on triangles of the mesh, and faces in grid planes, which join two cells or lie
+  ! on the boundary of the block. Half-faces are those of lap_complex: 2 f + s, side 0 behind the face's normal, side 1
+  ! before it. The normal of a wall points out of the fluid (so only side 0 of it is used), that of a face in a grid
+  ! plane along the axis (so side 0 belongs to the cell with the lower index).
+  !
+  ! Immutable: a const handle may be used from many threads at once; what is computed on demand is computed once.
+  ! Handle lap_mesh (type(c_ptr)). A closed triangle mesh that bounds a solid: the triangles of every edge balance in
+  ! orientation, solids are oriented outward and voids inward. Any genus, several components, voids, non-manifold edges
+  ! and vertices. Immutable: a const handle may be used from many threads at once.
+
+  public :: lap_progress
+  abstract interface
+    ! Progress of a call: the name of its stage (valid during the callback) and the fraction of the whole call that is
+    ! done, from 0 to 1, never falling. Return 0 to go on, anything else to cancel the call.
+    !
+    ! Runs on the thread that made the call and under the floating-point environment which that thread had. Must return
+    ! normally (no exception, no longjmp) and must not use the same context (LAP_ERR_BUSY).
+    integer(c_int32_t) function lap_progress(user, stage, fraction) bind(c)
+      import :: c_double, c_int32_t, c_ptr
+      type(c_ptr), value :: user
+      type(c_ptr), value :: stage
+      real(c_double), value :: fraction
+    end function
+  end interface
+
+  public :: lap_log
+  abstract interface
+    ! A log message (valid during the callback) and its level, LAP_LOG_INFO. The same rules as for lap_progress.
+    subroutine lap_log(user, level, message) bind(c)
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value :: user
+      integer(c_int32_t), value :: level
+      type(c_ptr), value :: message
+    end subroutine
+  end interface
+
+  ! Options of lap_mesh_new; filled by lap_mesh_options_init.
+  type, bind(c), public :: lap_mesh_options
+    ! Size of this struct in bytes, as the caller was compiled.
+    integer(c_int32_t) :: struct_size
+    ! Nonzero: vertices with equal coordinates become one (the lowest index stands for all). 0, the default: they are a
+    ! defect.
+    integer(c_int32_t) :: merge_duplicate_vertices
+    ! Nonzero: find every pair of triangles that meet outside a vertex or an edge which they share, exactly. 0, the
+    ! default: self-intersecting input gives LAP_ERR_INCONSISTENT or a result of unspecified geometry, never a crash.
+    integer(c_int32_t) :: check_self_intersection
+  end type
+
+  ! Options of lap_cut_new; filled by lap_cut_options_init.
+  type, bind(c), public :: lap_cut_options
+    ! Size of this struct in bytes, as the caller was compiled.
+    integer(c_int32_t) :: struct_size
+    ! Nonzero: run lap_complex_check on the result and fail with LAP_ERR_INCONSISTENT if it does not hold. 0, the
+    ! default: do not.
+    integer(c_int32_t) :: check
+  end type
+
+  ! Options of lap_certified_new; filled by lap_certify_options_init.
+  type, bind(c), public :: lap_certify_options
+    ! Size of this struct in bytes, as the caller was compiled.
+    integer(c_int32_t) :: struct_size
+    ! Nonzero: check and report, repair nothing. 0, the default: repair.
+    integer(c_int32_t) :: check_only
+    ! Nonzero: ask also about pairs of triangles of the input that no plane has cut. They meet only if the input
+    ! intersects itself, so this is for input that was not checked. 0, the default: do not.
+    integer(c_int32_t) :: check_input
+  end type
+
+  ! What lap_certified_report writes. Lengths are in the unit of the coordinates.
+  type, bind(c), public :: lap_certify_report
+    ! Size of this struct in bytes, as the caller was compiled.
+    integer(c_int32_t) :: struct_size
+    ! 1 if nothing remains, else 0: then lap_certified_open says where.
+    integer(c_int32_t) :: certified
+    ! With correctly rounded coordinates, before any repair: triangles without area; pairs of triangles that meet; outer
+    ! surfaces and voids of cells whose volume does not have its sign (asked only where the other two are 0).
+    integer(c_int64_t) :: flat_before
+    integer(c_int64_t) :: contacts_before
+    integer(c_int64_t) :: volumes_before
+    ! Vertices of the complex that are not at their correctly rounded coordinates any more, those that were merged into
+    ! others included; how many of them are vertices of the input mesh; how many were merged.
+    integer(c_int64_t) :: moved_vertices
+    integer(c_int64_t) :: moved_mesh_vertices
+    integer(c_int64_t) :: merged_vertices
+    ! Faces and cells that are gone: those of which too little is left for doubles. The maps list them.
+    integer(c_int64_t) :: removed_faces
+    integer(c_int64_t) :: removed_cells
+    ! What lap_certified_open lists.
+    integer(c_int64_t) :: open_pairs
+    integer(c_int64_t) :: open_cells
+    ! The largest change of any coordinate; and the unit in which vertices are moved: one ulp of the largest
+    ! |coordinate| of the mesh's bounding box.
+    real(c_double) :: largest_move
+    real(c_double) :: move_unit
+  end type
+
+  ! Options of lap_grid_new and lap_grid_new_patch; filled by lap_grid_options_init.
+  type, bind(c), public :: lap_grid_options
+    ! Size of this struct in bytes, as the caller was compiled.
+    integer(c_int32_t) :: struct_size
+    ! Nonzero: the fluid is outside the solid, as in external flow (the grid's box minus the bodies). 0, the default:
+    ! the fluid is the solid's inside.
+    integer(c_int32_t) :: outside
+    ! The block: boxes block_low[a] up to, not including, block_high[a] of the whole grid along axis a (0: x, 1: y, 2:
+    ! z). -1 as block_high[a] stands for the number of boxes. Default: 0 and -1, the whole grid.
+    integer(c_int32_t) :: block_low(3)
+    integer(c_int32_t) :: block_high(3)
+    ! For a patch: what is known about node known_node (its indices in the whole grid; a node of the block):
+    ! LAP_NODE_FLUID or LAP_NODE_SOLID. Default: LAP_NODE_UNKNOWN.
+    integer(c_int32_t) :: known
+    integer(c_int32_t) :: known_node(3)
+  end type
+
+  public :: lap_version
+  interface
+    ! The version of the library that is running.
+    !
+    ! Outputs (each may be NULL): the three numbers, and "major.minor.patch" as a string that lives as long as the
+    ! process. Versions with equal major number are compatible (with major number 0: with equal minor number).
+    !
+    ! Errors: none. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_version(major, minor, patch, text) bind(c, name="lap_version")
+      import :: c_int32_t, c_ptr
+      integer(c_int32_t), intent(inout), optional :: major
+      integer(c_int32_t), intent(inout), optional :: minor
+      integer(c_int32_t), intent(inout), optional :: patch
+      type(c_ptr), intent(inout), optional :: text
+    end function
+  end interface
+
+  public :: lap_status_name
+  interface
+    ! The name of a status code, for example "LAP_ERR_BAD_MESH"; "LAP_ERR_?" for a number that is no status code.
+    !
+    ! name: the string lives as long as the process.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if name is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_status_name(status, name) bind(c, name="lap_status_name")
+      import :: c_int32_t, c_ptr
+      integer(c_int32_t), value :: status
+      type(c_ptr), intent(inout), optional :: name
+    end function
+  end interface
+
+  public :: lap_defect_name
+  interface
+    ! The name of a defect kind, for example "LAP_DEFECT_OPEN_EDGE"; "LAP_DEFECT_?" for a number that is none.
+    !
+    ! name: the string lives as long as the process.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if name is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_defect_name(kind, name) bind(c, name="lap_defect_name")
+      import :: c_int32_t, c_ptr
+      integer(c_int32_t), value :: kind
+      type(c_ptr), intent(inout), optional :: name
+    end function
+  end interface
+
+  public :: lap_context_new
+  interface
+    ! Makes a context: one thread, no callbacks, counters off.
+    !
+    ! context: receives the handle; free it with lap_context_free. The pool's threads are started when first needed.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER. Threads: any. Cost: an allocation.
+    integer(c_int32_t) function lap_context_new(context) bind(c, name="lap_context_new")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), intent(inout), optional :: context
+    end function
+  end interface
+
+  public :: lap_context_free
+  interface
+    ! Frees a context and all that was borrowed from it. NULL is allowed and does nothing.
+    !
+    ! Errors: LAP_ERR_BUSY if called from one of the context's callbacks; nothing is freed then.
+    integer(c_int32_t) function lap_context_free(context) bind(c, name="lap_context_free")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value :: context
+    end function
+  end interface
+
+  public :: lap_context_set_threads
+  interface
+    ! Sets how many worker threads the calls with this context use: 1 (the default) to LAP_MAX_THREADS. Results do not
+    ! depend on it, bit for bit. With 1, a call computes in one worker thread while the calling thread waits.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BAD_ARGUMENT, LAP_ERR_BUSY. Cost: none; a pool of the old size is let go.
+    integer(c_int32_t) function lap_context_set_threads(context, threads) bind(c, name="lap_context_set_threads")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value :: context
+      integer(c_int32_t), value :: threads
+    end function
+  end interface
+
+  public :: lap_context_threads
+  interface
+    ! The number of worker threads that calls with this context use.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BUSY. Cost: none.
+    integer(c_int32_t) function lap_context_threads(context, threads) bind(c, name="lap_context_threads")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value :: context
+      integer(c_int32_t), intent(inout), optional :: threads
+    end function
+  end interface
+
+  public :: lap_context_set_progress
+  interface
+    ! Sets the progress callback (NULL: none) and the pointer that is handed to it.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BUSY. Cost: some microseconds per call-back.
+    integer(c_int32_t) function lap_context_set_progress(context, callback, &
+      user) bind(c, name="lap_context_set_progress")
+      import :: c_funptr, c_int32_t, c_ptr
+      type(c_ptr), value :: context
+      type(c_funptr), value :: callback
+      type(c_ptr), value :: user
+    end function
+  end interface
+
+  public :: lap_context_set_log
+  interface
+    ! Sets the log callback (NULL: none) and the pointer that is handed to it. The library never writes to a file, to
+    ! the standard output or to the standard error by itself.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BUSY. Cost: some microseconds per call-back.
+    integer(c_int32_t) function lap_context_set_log(context, callback, user) bind(c, name="lap_context_set_log")
+      import :: c_funptr, c_int32_t, c_ptr
+      type(c_ptr), value :: context
+      type(c_funptr), value :: callback
+      type(c_ptr), value :: user
+    end function
+  end interface
+
+  public :: lap_context_last_error
+  interface
+    ! How the last call with this context ended: its status (LAP_OK after success) and its message ("" after success),
+    ! which names the offending element. Calls of lap_context_last_error, lap_context_last_defects, lap_context_threads
+    ! and lap_context_counter* leave both as they are.
+    !
+    ! Outputs (each may be NULL). message is valid until the next call with this context.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BUSY. Cost: none.
+    integer(c_int32_t) function lap_context_last_error(context, status, message) bind(c, name="lap_context_last_error")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value :: context
+      integer(c_int32_t), intent(inout), optional :: status
+      type(c_ptr), intent(inout), optional :: message
+    end function
+  end interface
+
+  public :: lap_context_last_defects
+  interface
+    ! All defects that the last call with this context found (none after success).
+    !
+    ! Outputs (each may be NULL): count; kinds: count numbers LAP_DEFECT_*; ids: 3 × count, the elements of each defect
+    ! as LAP_DEFECT_* says, in the caller's numbering, -1 where unused. The arrays are valid until the next call with
+    ! this context.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BUSY. Cost: none.
+    integer(c_int32_t) function lap_context_last_defects(context, count, kinds, &
+      ids) bind(c, name="lap_context_last_defects")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: context
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: kinds
+      type(c_ptr), intent(inout), optional :: ids
+    end function
+  end interface
+
+  public :: lap_context_counters_enable
+  interface
+    ! Switches the predicate counters on (nonzero) or off (0, the default). They tell, per predicate and per tier, how
+    ! many decisions the making of meshes and cuts with this context took.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BUSY. Cost when on: a few percent of a call.
+    integer(c_int32_t) function lap_context_counters_enable(context, on) bind(c, name="lap_context_counters_enable")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value :: context
+      integer(c_int32_t), value :: on
+    end function
+  end interface
+
+  public :: lap_context_counters_reset
+  interface
+    ! Sets all predicate counters to 0.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BUSY. Cost: none.
+    integer(c_int32_t) function lap_context_counters_reset(context) bind(c, name="lap_context_counters_reset")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value :: context
+    end function
+  end interface
+
+  public :: lap_context_counters_count
+  interface
+    ! How many predicate counters there are.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BUSY. Cost: none.
+    integer(c_int32_t) function lap_context_counters_count(context, count) bind(c, name="lap_context_counters_count")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value :: context
+      integer(c_int32_t), intent(inout), optional :: count
+    end function
+  end interface
+
+  public :: lap_context_counter
+  interface
+    ! Predicate counter i, from 0: its name ("predicate.tier") and its value, summed over all calls since it was reset.
+    ! Tiers: topology (it was known already), filter (a few operations in double), bounded (a running error bound),
+    ! exact (integers on the stack), big (integers of any size).
+    !
+    ! Outputs (each may be NULL). name lives as long as the process.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BAD_ARGUMENT if there is no such counter, LAP_ERR_BUSY. Cost: none.
+    integer(c_int32_t) function lap_context_counter(context, i, name, value) bind(c, name="lap_context_counter")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: context
+      integer(c_int32_t), value :: i
+      type(c_ptr), intent(inout), optional :: name
+      integer(c_int64_t), intent(inout), optional :: value
+    end function
+  end interface
+
+  public :: lap_mesh_options_init
+  interface
+    ! Fills mesh options with the defaults.
+    !
+    ! struct_size: pass (int32_t)sizeof(lap_mesh_options); no more than that is written, so a program compiled against
+    ! an older header keeps working.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER; LAP_ERR_BAD_ARGUMENT if the size is not a multiple of 4 in 4..4096.
+    integer(c_int32_t) function lap_mesh_options_init(options, struct_size) bind(c, name="lap_mesh_options_init")
+      import :: c_int32_t, lap_mesh_options
+      type(lap_mesh_options), intent(inout), optional :: options
+      integer(c_int32_t), value :: struct_size
+    end function
+  end interface
+
+  public :: lap_mesh_new
+  interface
+    ! Makes a mesh from flat arrays.
+    !
+    ! Inputs (borrowed for the call): xyz: 3 × n_vertices coordinates, each taken as the exact number that it is, in
+    ! any unit; indices: 3 × n_triangles vertex indices from 0, anticlockwise seen from outside the solid; tags:
+    ! n_triangles numbers that are carried to the faces of results (boundary patch, body), or NULL; options: or NULL for
+    ! the defaults. Vertices that no triangle uses are allowed. mesh: receives the handle, NULL after an error; free it
+    ! with lap_mesh_free.
+    !
+    ! Errors: LAP_ERR_BAD_MESH with all defects found (lap_context_last_defects): coordinates that are not finite,
+    ! indices out of range, degenerate triangles, open edges, inconsistent orientation, wrong nesting, no triangles, and
+    ! if asked for self-intersections; LAP_ERR_NULL_POINTER, LAP_ERR_BAD_ARGUMENT, LAP_ERR_TOO_LARGE, LAP_ERR_CANCELLED,
+    ! LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: n log n; with the check for self-intersections several times that.
+    integer(c_int32_t) function lap_mesh_new(context, n_vertices, xyz, n_triangles, indices, tags, options, &
+      mesh) bind(c, name="lap_mesh_new")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr, lap_mesh_options
+      type(c_ptr), value :: context
+      integer(c_int64_t), value :: n_vertices
+      real(c_double), intent(in), optional :: xyz(*)
+      integer(c_int64_t), value :: n_triangles
+      integer(c_int32_t), intent(in), optional :: indices(*)
+      integer(c_int32_t), intent(in), optional :: tags(*)
+      type(lap_mesh_options), intent(in), optional :: options
+      type(c_ptr), intent(inout), optional :: mesh
+    end function
+  end interface
+
+  public :: lap_mesh_validate
+  interface
+    ! Runs every check of lap_mesh_new, the one for self-intersections included, without making a mesh.
+    !
+    ! Inputs as for lap_mesh_new (options may be NULL; check_self_intersection is taken as set). n_defects (may be NULL)
+    ! receives how many defects there are.
+    !
+    ! Errors: those of lap_mesh_new: LAP_OK means that the mesh is valid, after LAP_ERR_BAD_MESH
+    ! lap_context_last_defects lists all defects. Cost: that of lap_mesh_new with the check for self-intersections.
+    integer(c_int32_t) function lap_mesh_validate(context, n_vertices, xyz, n_triangles, indices, options, &
+      n_defects) bind(c, name="lap_mesh_validate")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr, lap_mesh_options
+      type(c_ptr), value :: context
+      integer(c_int64_t), value :: n_vertices
+      real(c_double), intent(in), optional :: xyz(*)
+      integer(c_int64_t), value :: n_triangles
+      integer(c_int32_t), intent(in), optional :: indices(*)
+      type(lap_mesh_options), intent(in), optional :: options
+      integer(c_int64_t), intent(inout), optional :: n_defects
+    end function
+  end interface
+
+  public :: lap_mesh_free
+  interface
+    ! Frees a mesh. NULL is allowed and does nothing. Results made from the mesh stay valid.
+    !
+    ! Errors: none.
+    integer(c_int32_t) function lap_mesh_free(mesh) bind(c, name="lap_mesh_free")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value :: mesh
+    end function
+  end interface
+
+  public :: lap_mesh_counts
+  interface
+    ! How many elements a mesh has: vertices (those that triangles use), triangles (all that were given), edges,
+    ! components (sets of triangles connected through edges), shells (sets of triangles connected through wedges of
+    ! solid at their edges; two solids that share an edge are two shells).
+    !
+    ! Outputs: each may be NULL. Errors: LAP_ERR_NULL_POINTER if mesh is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_mesh_counts(mesh, vertices, triangles, edges, components, &
+      shells) bind(c, name="lap_mesh_counts")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: mesh
+      integer(c_int64_t), intent(inout), optional :: vertices
+      integer(c_int64_t), intent(inout), optional :: triangles
+      integer(c_int64_t), intent(inout), optional :: edges
+      integer(c_int64_t), intent(inout), optional :: components
+      integer(c_int64_t), intent(inout), optional :: shells
+    end function
+  end interface
+
+  public :: lap_mesh_bounds
+  interface
+    ! The bounding box of a mesh.
+    !
+    ! bounds: receives a pointer to 6 doubles, lowest x, y, z and highest x, y, z; borrowed until the mesh is freed.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_mesh_bounds(mesh, bounds) bind(c, name="lap_mesh_bounds")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value :: mesh
+      type(c_ptr), intent(inout), optional :: bounds
+    end function
+  end interface
+
+  public :: lap_mesh_vertices
+  interface
+    ! The vertices of a mesh as it is held: those that triangles use, merged if asked for.
+    !
+    ! Outputs (each may be NULL; borrowed until the mesh is freed): count; xyz: 3 × count; sources: count indices of
+    ! the vertices in the caller's array.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if mesh is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_mesh_vertices(mesh, count, xyz, sources) bind(c, name="lap_mesh_vertices")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: mesh
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: xyz
+      type(c_ptr), intent(inout), optional :: sources
+    end function
+  end interface
+
+  public :: lap_mesh_triangles
+  interface
+    ! The triangles of a mesh, in the caller's order.
+    !
+    ! Outputs (each may be NULL; borrowed until the mesh is freed): count; vertices: 3 × count positions in the array
+    ! of lap_mesh_vertices; tags: count numbers as given, NULL if none were given.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if mesh is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_mesh_triangles(mesh, count, vertices, tags) bind(c, name="lap_mesh_triangles")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: mesh
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: vertices
+      type(c_ptr), intent(inout), optional :: tags
+    end function
+  end interface
+
+  public :: lap_mesh_volume
+  interface
+    ! The volume of the solid, in cubed units of the input: the double nearest to the exact volume.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER. Threads: any. Cost: an exact sum over the triangles at the first call, then none.
+    integer(c_int32_t) function lap_mesh_volume(mesh, volume) bind(c, name="lap_mesh_volume")
+      import :: c_double, c_int32_t, c_ptr
+      type(c_ptr), value :: mesh
+      real(c_double), intent(inout), optional :: volume
+    end function
+  end interface
+
+  public :: lap_mesh_volume_exact
+  interface
+    ! The exact volume of the solid as a canonical string, "num/den" or "num" for an integer, in decimal.
+    !
+    ! volume: valid until the next call with this context. A GMP or CGAL rational reads it.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: an exact sum over the triangles at the
+    ! first call, then none.
+    integer(c_int32_t) function lap_mesh_volume_exact(context, mesh, volume) bind(c, name="lap_mesh_volume_exact")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value :: context
+      type(c_ptr), value :: mesh
+      type(c_ptr), intent(inout), optional :: volume
+    end function
+  end interface
+
+  public :: lap_mesh_euler
+  interface
+    ! The Euler characteristic of the solid, by the expression of lap_complex_euler: ball 1, ball with a void 2, solid
+    ! torus 0, two tetrahedra sharing a vertex 1.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER. Threads: any. Cost: linear at the first call, then none.
+    integer(c_int32_t) function lap_mesh_euler(mesh, euler) bind(c, name="lap_mesh_euler")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: mesh
+      integer(c_int64_t), intent(inout), optional :: euler
+    end function
+  end interface
+
+  public :: lap_mesh_locate
+  interface
+    ! Where points are with respect to the solid, exactly. (For example: what is known about a node, for a rank that
+    ! holds only a part of the mesh. See lap_grid_new_patch.)
+    !
+    ! Inputs (borrowed for the call): mesh; points: 3 × count finite coordinates. places: receives count numbers
+    ! LAP_PLACE_*, valid until the next call with this context.
+    !
+    ! Errors: LAP_ERR_BAD_ARGUMENT with a message that names the first point that is not finite; LAP_ERR_NULL_POINTER,
+    ! LAP_ERR_TOO_LARGE, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: n log n in the triangles at the first call, then
+    ! logarithmic for each point, plus some tens of nanoseconds for each triangle whose bounding box a ray from the
+    ! point towards +x meets.
+    integer(c_int32_t) function lap_mesh_locate(context, mesh, count, points, places) bind(c, name="lap_mesh_locate")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: context
+      type(c_ptr), value :: mesh
+      integer(c_int64_t), value :: count
+      real(c_double), intent(in), optional :: points(*)
+      type(c_ptr), intent(inout), optional :: places
+    end function
+  end interface
+
+  public :: lap_cut_options_init
+  interface
+    ! Fills cut options with the defaults.
+    !
+    ! struct_size: pass (int32_t)sizeof(lap_cut_options); no more than that is written, so a program compiled against an
+    ! older header keeps working.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER; LAP_ERR_BAD_ARGUMENT if the size is not a multiple of 4 in 4..4096.
+    integer(c_int32_t) function lap_cut_options_init(options, struct_size) bind(c, name="lap_cut_options_init")
+      import :: c_int32_t, lap_cut_options
+      type(lap_cut_options), intent(inout), optional :: options
+      integer(c_int32_t), value :: struct_size
+    end function
+  end interface
+
+  public :: lap_cut_new
+  interface
+    ! Cuts a solid along planes.
+    !
+    ! Inputs (borrowed for the call): mesh; planes: 4 × n_planes numbers, a, b, c, d for the plane a x + b y + c z + d
+    ! = 0, each taken as the exact number that it is, in any position and of any length (coincident planes count once;
+    ! n_planes may be 0); options: or NULL for the defaults. The positive side of a plane is where a x + b y + c z + d >
+    ! 0. cut: receives the handle, NULL after an error or cancel; free it with lap_cut_free. It does not need the mesh
+    ! handle or the context to stay alive.
+    !
+    ! Errors: LAP_ERR_BAD_PLANE with all defects found (not finite, zero normal), LAP_ERR_INCONSISTENT for input that
+    ! intersects itself, LAP_ERR_NULL_POINTER, LAP_ERR_BAD_ARGUMENT, LAP_ERR_TOO_LARGE, LAP_ERR_CANCELLED,
+    ! LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: grows with the size of the result and n log n of the input.
+    integer(c_int32_t) function lap_cut_new(context, mesh, n_planes, planes, options, cut) bind(c, name="lap_cut_new")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr, lap_cut_options
+      type(c_ptr), value :: context
+      type(c_ptr), value :: mesh
+      integer(c_int64_t), value :: n_planes
+      real(c_double), intent(in), optional :: planes(*)
+      type(lap_cut_options), intent(in), optional :: options
+      type(c_ptr), intent(inout), optional :: cut
+    end function
+  end interface
+
+  public :: lap_cut_free
+  interface
+    ! Frees a cut and all that was borrowed from it, its complex included. NULL is allowed and does nothing.
+    !
+    ! Errors: none.
+    integer(c_int32_t) function lap_cut_free(cut) bind(c, name="lap_cut_free")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value :: cut
+    end function
+  end interface
+
+  public :: lap_cut_complex
+  interface
+    ! The cells, faces, edges and vertices of a cut.
+    !
+    ! complex: borrowed until the cut is freed; do not free it.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_cut_complex(cut, complex) bind(c, name="lap_cut_complex")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value :: cut
+      type(c_ptr), intent(inout), optional :: complex
+    end function
+  end interface
+
+  public :: lap_cut_plane_map
+  interface
+    ! Which planes coincide.
+    !
+    ! Outputs (each may be NULL; borrowed until the cut is freed): count: the number of planes given; map: for each, the
+    ! lowest index of the planes that coincide with it (its own, if there is no lower one). The complex speaks of planes
+    ! by these lowest indices only. Opposite orientation does not keep planes from coinciding.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if cut is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_cut_plane_map(cut, count, map) bind(c, name="lap_cut_plane_map")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: cut
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: map
+    end function
+  end interface
+
+  public :: lap_cut_stage_count
+  interface
+    ! How many stages the cut ran through.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_cut_stage_count(cut, count) bind(c, name="lap_cut_stage_count")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value :: cut
+      integer(c_int32_t), intent(inout), optional :: count
+    end function
+  end interface
+
+  public :: lap_cut_stage
+  interface
+    ! Stage i of the cut, from 0, in the order in which they ran: its name and its time in seconds.
+    !
+    ! Outputs (each may be NULL). name is borrowed until the cut is freed.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if cut is NULL, LAP_ERR_BAD_ARGUMENT if there is no such stage. Threads: any. Cost:
+    ! none.
+    integer(c_int32_t) function lap_cut_stage(cut, i, name, seconds) bind(c, name="lap_cut_stage")
+      import :: c_double, c_int32_t, c_ptr
+      type(c_ptr), value :: cut
+      integer(c_int32_t), value :: i
+      type(c_ptr), intent(inout), optional :: name
+      real(c_double), intent(inout), optional :: seconds
+    end function
+  end interface
+
+  public :: lap_cut_statistic_count
+  interface
+    ! How many statistics there are: two per predicate, "predicate.topological" and "predicate.numerical": how many
+    ! decisions of this cut followed from topology alone, and how many were computed from numbers. All 0 unless the
+    ! context counted (lap_context_counters_enable).
+    !
+    ! Errors: LAP_ERR_NULL_POINTER. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_cut_statistic_count(cut, count) bind(c, name="lap_cut_statistic_count")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value :: cut
+      integer(c_int32_t), intent(inout), optional :: count
+    end function
+  end interface
+
+  public :: lap_cut_statistic
+  interface
+    ! Statistic i, from 0: its name and its value.
+    !
+    ! Outputs (each may be NULL). name is borrowed until the cut is freed.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if cut is NULL, LAP_ERR_BAD_ARGUMENT if there is no such statistic. Threads: any.
+    ! Cost: none.
+    integer(c_int32_t) function lap_cut_statistic(cut, i, name, value) bind(c, name="lap_cut_statistic")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: cut
+      integer(c_int32_t), value :: i
+      type(c_ptr), intent(inout), optional :: name
+      integer(c_int64_t), intent(inout), optional :: value
+    end function
+  end interface
+
+  public :: lap_complex_counts
+  interface
+    ! How many elements a complex has. loops, corners: of all faces; shells: of all cells.
+    !
+    ! Outputs: each may be NULL. Errors: LAP_ERR_NULL_POINTER if complex is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_complex_counts(complex, vertices, edges, faces, cells, loops, corners, &
+      shells) bind(c, name="lap_complex_counts")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: complex
+      integer(c_int64_t), intent(inout), optional :: vertices
+      integer(c_int64_t), intent(inout), optional :: edges
+      integer(c_int64_t), intent(inout), optional :: faces
+      integer(c_int64_t), intent(inout), optional :: cells
+      integer(c_int64_t), intent(inout), optional :: loops
+      integer(c_int64_t), intent(inout), optional :: corners
+      integer(c_int64_t), intent(inout), optional :: shells
+    end function
+  end interface
+
+  public :: lap_complex_vertices
+  interface
+    ! The coordinates of the vertices: each the double nearest to the exact coordinate (ties to even, zero as +0), in
+    ! the units of the input. Vertices of the input mesh come first.
+    !
+    ! Outputs (each may be NULL; borrowed as the complex): count; xyz: 3 × count.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if complex is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_complex_vertices(complex, count, xyz) bind(c, name="lap_complex_vertices")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: complex
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: xyz
+    end function
+  end interface
+
+  public :: lap_complex_vertex_origins
+  interface
+    ! What each vertex is, symbolically.
+    !
+    ! Outputs (each may be NULL; borrowed as the complex): count; kinds: count numbers LAP_VERTEX_*; ids: 3 × count, as
+    ! LAP_VERTEX_* says, in the caller's numbering, -1 where unused.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if complex is NULL. Threads: any. Cost: linear at the first call, then none.
+    integer(c_int32_t) function lap_complex_vertex_origins(complex, count, kinds, &
+      ids) bind(c, name="lap_complex_vertex_origins")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: complex
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: kinds
+      type(c_ptr), intent(inout), optional :: ids
+    end function
+  end interface
+
+  public :: lap_complex_vertex_planes
+  interface
+    ! All planes through each vertex, rising (of coincident planes the lowest).
+    !
+    ! Outputs (each may be NULL; borrowed as the complex): count: the number of vertices; offsets: count + 1; planes:
+    ! those of vertex v are planes[offsets[v]] up to, not including, planes[offsets[v + 1]].
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if complex is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_complex_vertex_planes(complex, count, offsets, &
+      planes) bind(c, name="lap_complex_vertex_planes")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: complex
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: offsets
+      type(c_ptr), intent(inout), optional :: planes
+    end function
+  end interface
+
+  public :: lap_complex_edges
+  interface
+    ! The edges.
+    !
+    ! Outputs (each may be NULL; borrowed as the complex): count; vertices: 2 × count.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if complex is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_complex_edges(complex, count, vertices) bind(c, name="lap_complex_edges")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: complex
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: vertices
+    end function
+  end interface
+
+  public :: lap_complex_faces
+  interface
+    ! The faces with their holes. A face is a set of loops, the outer loop first, then holes; seen with the face's
+    ! normal up, the outer loop runs anticlockwise and holes run clockwise. A loop is a cyclic run of corners. An edge
+    ! with the face on both its sides is walked twice; an isolated vertex inside a face is a hole of one corner and no
+    ! edge.
+    !
+    ! Outputs (each may be NULL; borrowed as the complex): count: the number of faces; face_loops: count + 1, face f has
+    ! the loops face_loops[f] up to, not including, face_loops[f + 1]; loop_corners: number of loops + 1, loop l has the
+    ! corners loop_corners[l] up to, not including, loop_corners[l + 1]; corner_vertices: the vertex of each corner;
+    ! corner_edges: the edge from each corner to the next of its loop (from the last to the first), -1 for an isolated
+    ! vertex.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if complex is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_complex_faces(complex, count, face_loops, loop_corners, corner_vertices, &
+      corner_edges) bind(c, name="lap_complex_faces")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: complex
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: face_loops
+      type(c_ptr), intent(inout), optional :: loop_corners
+      type(c_ptr), intent(inout), optional :: corner_vertices
+      type(c_ptr), intent(inout), optional :: corner_edges
+    end function
+  end interface
+
+  public :: lap_complex_face_supports
+  interface
+    ! What each face lies on. A face on both a triangle and a plane has the triangle as its support, and the plane as
+    ! well.
+    !
+    ! Outputs (each may be NULL; borrowed as the complex): count; kinds: count numbers LAP_SUPPORT_*; ids: count indices
+    ! of triangles or planes, in the caller's numbering; planes: for each face the lowest plane that it lies on, -1 if
+    ! none; tags: for each face the tag of its triangle, 0 for faces on planes only and without tags. The normal of a
+    ! face is that of its support: of the triangle, or (a, b, c) of the plane.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if complex is NULL. Threads: any. Cost: linear at the first call, then none.
+    integer(c_int32_t) function lap_complex_face_supports(complex, count, kinds, ids, planes, &
+      tags) bind(c, name="lap_complex_face_supports")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: complex
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: kinds
+      type(c_ptr), intent(inout), optional :: ids
+      type(c_ptr), intent(inout), optional :: planes
+      type(c_ptr), intent(inout), optional :: tags
+    end function
+  end interface
+
+  public :: lap_complex_face_cells
+  interface
+    ! The cells on the two sides of each face.
+    !
+    ! Outputs (each may be NULL; borrowed as the complex): count: the number of faces; cells: 2 × count, the owner
+    ! (behind the face, on the side that its normal points away from), and the neighbour (before it), -1 outside the
+    ! solid.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if complex is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_complex_face_cells(complex, count, cells) bind(c, name="lap_complex_face_cells")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: complex
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: cells
+    end function
+  end interface
+
+  public :: lap_complex_cells
+  interface
+    ! The cells. A cell is bounded by shells, the outer shell first, then voids; a shell is a closed set of half-faces.
+    !
+    ! Outputs (each may be NULL; borrowed as the complex): count: the number of cells; cell_shells: count + 1, cell c
+    ! has the shells cell_shells[c] up to, not including, cell_shells[c + 1]; shell_faces: number of shells + 1, shell s
+    ! has the half-faces half_faces[shell_faces[s]] up to, not including, half_faces[shell_faces[s + 1]]; half_faces: 2
+    ! f + side, side 0 where the normal of face f points out of the cell, 1 where it points into it; rising in each
+    ! shell.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if complex is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_complex_cells(complex, count, cell_shells, shell_faces, &
+      half_faces) bind(c, name="lap_complex_cells")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: complex
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: cell_shells
+      type(c_ptr), intent(inout), optional :: shell_faces
+      type(c_ptr), intent(inout), optional :: half_faces
+    end function
+  end interface
+
+  public :: lap_complex_cell_components
+  interface
+    ! The component of the input mesh (0 up to lap_mesh_counts' components) that each cell belongs to: that of the
+    ! surface which encloses it.
+    !
+    ! Outputs (each may be NULL; borrowed as the complex): count: the number of cells; components: count.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if complex is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_complex_cell_components(complex, count, &
+      components) bind(c, name="lap_complex_cell_components")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: complex
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: components
+    end function
+  end interface
+
+  public :: lap_complex_cell_side
+  interface
+    ! The side of a plane that a cell is on: side receives 1 where a x + b y + c z + d > 0, -1 where it is < 0.
+    !
+    ! cell: from 0; plane: index in the caller's array (any of coincident planes).
+    !
+    ! Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BAD_ARGUMENT for a cell or plane that is not there. Threads: any. Cost: one
+    ! exact sign, and a walk over those vertices of the cell that lie on the plane.
+    integer(c_int32_t) function lap_complex_cell_side(complex, cell, plane, side) bind(c, name="lap_complex_cell_side")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value :: complex
+      integer(c_int32_t), value :: cell
+      integer(c_int32_t), value :: plane
+      integer(c_int32_t), intent(inout), optional :: side
+    end function
+  end interface
+
+  public :: lap_complex_cell_moments
+  interface
+    ! The moments of the cells: volume and centroid, in powers of the units of the input.
+    !
+    ! Outputs (each may be NULL; borrowed as the complex): count: the number of cells; volumes: count; centroids: 3 ×
+    ! count; flags: count, nonzero where a moment is beyond the range of double (it is then infinite, or 0). Every
+    ! number is the double nearest to the exact one.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_INTERNAL. Threads: any. Cost: one walk over all faces at
+    ! the first call, then none.
+    integer(c_int32_t) function lap_complex_cell_moments(complex, count, volumes, centroids, &
+      flags) bind(c, name="lap_complex_cell_moments")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: complex
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: volumes
+      type(c_ptr), intent(inout), optional :: centroids
+      type(c_ptr), intent(inout), optional :: flags
+    end function
+  end interface
+
+  public :: lap_complex_face_moments
+  interface
+    ! The moments of the faces: area vector (along the face's normal, its length the area) and centroid.
+    !
+    ! Outputs (each may be NULL; borrowed as the complex): count: the number of faces; area_vectors: 3 × count;
+    ! centroids: 3 × count; flags: count, nonzero where a moment is beyond the range of double (it is then infinite, or
+    ! 0). Every number is the double nearest to the exact one.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_INTERNAL. Threads: any. Cost: one walk over all faces at
+    ! the first call, then none.
+    integer(c_int32_t) function lap_complex_face_moments(complex, count, area_vectors, centroids, &
+      flags) bind(c, name="lap_complex_face_moments")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: complex
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: area_vectors
+      type(c_ptr), intent(inout), optional :: centroids
+      type(c_ptr), intent(inout), optional :: flags
+    end function
+  end interface
+
+  public :: lap_complex_polygons
+  interface
+    ! The faces as plain polygons, without new vertices.
+    !
+    ! style: LAP_FACES_HOLES, LAP_FACES_BRIDGED or LAP_FACES_TRIANGLES. Outputs (each may be NULL; borrowed as the
+    ! complex): count: the number of polygons; offsets: count + 1; vertices: those of polygon i are vertices[offsets[i]]
+    ! up to, not including, vertices[offsets[i + 1]]; faces: for each polygon the face that it is a part of, never
+    ! falling. Polygons run anticlockwise seen with the face's normal up (holes clockwise).
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_BAD_ARGUMENT for an unknown style, LAP_ERR_INTERNAL.
+    ! Threads: any. Cost: n log n in the size of each face at the first call for a style, then none.
+    integer(c_int32_t) function lap_complex_polygons(complex, style, count, offsets, vertices, &
+      faces) bind(c, name="lap_complex_polygons")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: complex
+      integer(c_int32_t), value :: style
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: offsets
+      type(c_ptr), intent(inout), optional :: vertices
+      type(c_ptr), intent(inout), optional :: faces
+    end function
+  end interface
+
+  public :: lap_complex_adjacency
+  interface
+    ! What follows across each edge on the surface of the same cell: adjacent(half-face, edge).
+    !
+    ! The half-corner 2 c + s is side s of the face of corner c, along the edge from corner c to the next of its loop.
+    ! Its mate is the half-corner that meets it at that edge inside the same cell.
+    !
+    ! Outputs (each may be NULL; borrowed as the complex): count: the number of corners, as in lap_complex_faces; mates:
+    ! 2 × count: mates[2 c + s] is the mate of half-corner 2 c + s, -1 outside the solid and for an isolated vertex;
+    ! faces: count: the face of each corner. So the half-face across is 2 faces[m / 2] + m % 2 for a mate m.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_INCONSISTENT if half-faces do not pair up (input that
+    ! intersects itself). Threads: any. Cost: linear, and radial orders around edges that a cell meets more than once,
+    ! at the first call; then none.
+    integer(c_int32_t) function lap_complex_adjacency(complex, count, mates, &
+      faces) bind(c, name="lap_complex_adjacency")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: complex
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: mates
+      type(c_ptr), intent(inout), optional :: faces
+    end function
+  end interface
+
+  public :: lap_complex_euler
+  interface
+    ! The Euler characteristic of the complex and of the solid that it was made from; a correct complex has both equal.
+    ! Vertices - edges + sum over faces of (1 - holes) - sum over cells of half the Euler characteristics of their
+    ! shells (a vertex counts once per umbrella; where the tip of a void or of a dent touches a plane, the shells there
+    ! count as joined by a tube).
+    !
+    ! Outputs: each may be NULL. Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_INCONSISTENT if half-faces do
+    ! not pair up (input that intersects itself). Threads: any. Cost: linear at the first call, then none.
+    integer(c_int32_t) function lap_complex_euler(complex, output, input) bind(c, name="lap_complex_euler")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: complex
+      integer(c_int64_t), intent(inout), optional :: output
+      integer(c_int64_t), intent(inout), optional :: input
+    end function
+  end interface
+
+  public :: lap_complex_check
+  interface
+    ! Checks that a complex is consistent: indices in range, loops and shells closed, each face owned by one or two
+    ! cells, Euler characteristics equal.
+    !
+    ! Errors: LAP_ERR_INCONSISTENT with a message that names the element; LAP_ERR_NULL_POINTER, LAP_ERR_OUT_OF_MEMORY,
+    ! LAP_ERR_BUSY. Cost: linear.
+    integer(c_int32_t) function lap_complex_check(context, complex) bind(c, name="lap_complex_check")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value :: context
+      type(c_ptr), value :: complex
+    end function
+  end interface
+
+  public :: lap_complex_vertex_exact
+  interface
+    ! The exact coordinates of a vertex as canonical strings, "num/den" or "num" for an integer, in decimal. A GMP or
+    ! CGAL rational reads them.
+    !
+    ! Outputs (each may be NULL): x, y, z: valid until the next call with this context.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BAD_ARGUMENT for a vertex that is not there, LAP_ERR_OUT_OF_MEMORY,
+    ! LAP_ERR_BUSY. Cost: some microseconds.
+    integer(c_int32_t) function lap_complex_vertex_exact(context, complex, vertex, x, y, &
+      z) bind(c, name="lap_complex_vertex_exact")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value :: context
+      type(c_ptr), value :: complex
+      integer(c_int32_t), value :: vertex
+      type(c_ptr), intent(inout), optional :: x
+      type(c_ptr), intent(inout), optional :: y
+      type(c_ptr), intent(inout), optional :: z
+    end function
+  end interface
+
+  public :: lap_complex_cell_volume_exact
+  interface
+    ! The exact volume of a cell as a canonical string, "num/den" or "num" for an integer, in decimal.
+    !
+    ! volume: valid until the next call with this context.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BAD_ARGUMENT for a cell that is not there, LAP_ERR_OUT_OF_MEMORY,
+    ! LAP_ERR_BUSY. Cost: an exact sum over the cell's faces; the string grows with the number of planes that bound the
+    ! cell.
+    integer(c_int32_t) function lap_complex_cell_volume_exact(context, complex, cell, &
+      volume) bind(c, name="lap_complex_cell_volume_exact")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value :: context
+      type(c_ptr), value :: complex
+      integer(c_int32_t), value :: cell
+      type(c_ptr), intent(inout), optional :: volume
+    end function
+  end interface
+
+  public :: lap_mesh_set_triangle_ids
+  interface
+    ! Gives the triangles of a mesh global ids, for keys: of results that are made from it afterwards. Without, the id
+    ! of a triangle is its index.
+    !
+    ! Inputs (borrowed for the call): ids: n_triangles numbers, one per triangle that the mesh was made of, in that
+    ! order, each from 0 up to, not including, 2^40, no two equal. Two meshes that hold parts of one surface give a
+    ! triangle the same id, and list its corners in the same order. No other call may use the mesh meanwhile.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER; LAP_ERR_BAD_ARGUMENT for another number of ids, an id out of range, or two that are
+    ! equal; LAP_ERR_TOO_LARGE, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: linear if the ids rise, else n log n.
+    integer(c_int32_t) function lap_mesh_set_triangle_ids(context, mesh, n_triangles, &
+      ids) bind(c, name="lap_mesh_set_triangle_ids")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: context
+      type(c_ptr), value :: mesh
+      integer(c_int64_t), value :: n_triangles
+      integer(c_int64_t), intent(in), optional :: ids(*)
+    end function
+  end interface
+
+  public :: lap_cut_set_plane_ids
+  interface
+    ! Gives the planes of a cut global ids, for keys. Without, the id of a plane is its index.
+    !
+    ! Inputs (borrowed for the call): ids: n_planes numbers, one per plane that was given to lap_cut_new, in that order,
+    ! each from 0 up to, not including, 2^40, no two equal. Of coincident planes the smallest id stands for all. Only
+    ! before the first call of lap_complex_vertex_keys or lap_complex_face_keys; no other call may use the cut
+    ! meanwhile.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER; LAP_ERR_BAD_ARGUMENT for another number of ids, an id out of range, two that are
+    ! equal, or if there are keys already; LAP_ERR_TOO_LARGE, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: linear if the
+    ! ids rise, else n log n.
+    integer(c_int32_t) function lap_cut_set_plane_ids(context, cut, n_planes, &
+      ids) bind(c, name="lap_cut_set_plane_ids")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: context
+      type(c_ptr), value :: cut
+      integer(c_int64_t), value :: n_planes
+      integer(c_int64_t), intent(in), optional :: ids(*)
+    end function
+  end interface
+
+  public :: lap_complex_vertex_keys
+  interface
+    ! The keys of the vertices: 128 bits each, made from global ids of triangles and planes alone
+    ! (lap_mesh_set_triangle_ids, lap_cut_set_plane_ids). No two vertices have the same key, and no vertex has that of a
+    ! face. Two complexes cut from parts of the same mesh by some of the same planes give a vertex that they share the
+    ! same key, if both know all triangles that contain it: a block that is given every triangle which meets its closed
+    ! box, and the planes that bound it, does.
+    !
+    ! Outputs (each may be NULL; borrowed as the complex): count; keys: 2 × count, the first number of a pair never
+    ! negative. What the numbers are: the 7 high bits of the first are the kind of the point, then follow three numbers
+    ! of 40 bits, as for lap_complex_vertex_origins; elements of the mesh go by the smallest id of the triangles that
+    ! contain them. Kinds: 0, 1, 2: corner 0, 1, 2 of a triangle; 3, 4, 5: on the side from corner 0, 1, 2 of a triangle
+    ! to the next, and the smallest plane that crosses it there; 6: inside a triangle, on two planes; 7: on three
+    ! planes.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: linear at the first
+    ! call, then none.
+    integer(c_int32_t) function lap_complex_vertex_keys(complex, count, keys) bind(c, name="lap_complex_vertex_keys")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: complex
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: keys
+    end function
+  end interface
+
+  public :: lap_complex_face_keys
+  interface
+    ! The keys of the faces, as lap_complex_vertex_keys: no two faces have the same key, and a face that two complexes
+    ! share has the same key in both. A key names one edge of the face's boundary with its direction, and so the face on
+    ! its left.
+    !
+    ! Outputs (each may be NULL; borrowed as the complex): count; keys: 2 × count, the first number of a pair never
+    ! negative.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_INCONSISTENT for input that intersects itself,
+    ! LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: linear at the first call, then none.
+    integer(c_int32_t) function lap_complex_face_keys(complex, count, keys) bind(c, name="lap_complex_face_keys")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: complex
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: keys
+    end function
+  end interface
+
+  public :: lap_certify_options_init
+  interface
+    ! Fills options of lap_certified_new with the defaults.
+    !
+    ! struct_size: pass (int32_t)sizeof(lap_certify_options); no more than that is written.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER; LAP_ERR_BAD_ARGUMENT if the size is not a multiple of 4 in 4..4096.
+    integer(c_int32_t) function lap_certify_options_init(options, struct_size) bind(c, name="lap_certify_options_init")
+      import :: c_int32_t, lap_certify_options
+      type(lap_certify_options), intent(inout), optional :: options
+      integer(c_int32_t), value :: struct_size
+    end function
+  end interface
+
+  public :: lap_certified_new
+  interface
+    ! Triangulates a complex without new vertices, checks the triangles exactly over the correctly rounded coordinates,
+    ! and repairs what rounding broke.
+    !
+    ! Repairs are tried in this order, each around a defect only, and kept if they help: vertices at one place are
+    ! merged, and cells without volume go with them; diagonals of faces are flipped; vertices made by planes are moved
+    ! by few units, first across the faces and along the lines whose order they break; vertices a few units apart are
+    ! merged. Vertices of the input mesh are moved, and vertices that no edge joins merged, only where all of that
+    ! failed. So the report is to be read: a result may be uncertified, and says so.
+    !
+    ! Inputs (borrowed for the call): complex; fixed_planes: n_fixed_planes indices of planes, as the complex uses them
+    ! (of coincident planes the lowest): vertices on these planes, block boundaries say, stay where they are;
+    ! fixed_vertices: n_fixed_vertices indices of further vertices that do; options: or NULL for the defaults. Others
+    ! may be merged into a vertex that stays. certified: receives the handle, NULL after an error or cancel; free it
+    ! with lap_certified_free. It does not need the complex to stay alive.
+    !
+    ! Errors: LAP_ERR_INCONSISTENT if a face contradicts itself (input that intersects itself), LAP_ERR_NULL_POINTER,
+    ! LAP_ERR_BAD_ARGUMENT (an index out of range included), LAP_ERR_TOO_LARGE, LAP_ERR_CANCELLED,
+    ! LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. That something remains uncertified is no error. Cost: n log n of the
+    ! triangles, mostly for those with a vertex made by planes; about a millisecond for each place that has to be
+    ! repaired.
+    integer(c_int32_t) function lap_certified_new(context, complex, n_fixed_planes, fixed_planes, n_fixed_vertices, &
+      fixed_vertices, options, certified) bind(c, name="lap_certified_new")
+      import :: c_int32_t, c_int64_t, c_ptr, lap_certify_options
+      type(c_ptr), value :: context
+      type(c_ptr), value :: complex
+      integer(c_int64_t), value :: n_fixed_planes
+      integer(c_int32_t), intent(in), optional :: fixed_planes(*)
+      integer(c_int64_t), value :: n_fixed_vertices
+      integer(c_int32_t), intent(in), optional :: fixed_vertices(*)
+      type(lap_certify_options), intent(in), optional :: options
+      type(c_ptr), intent(inout), optional :: certified
+    end function
+  end interface
+
+  public :: lap_certified_free
+  interface
+    ! Frees what was certified and all that was borrowed from it. NULL is allowed and does nothing.
+    !
+    ! Errors: none.
+    integer(c_int32_t) function lap_certified_free(certified) bind(c, name="lap_certified_free")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value :: certified
+    end function
+  end interface
+
+  public :: lap_certified_counts
+  interface
+    ! How many elements are left.
+    !
+    ! Outputs: each may be NULL.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if certified is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_certified_counts(certified, vertices, triangles, faces, &
+      cells) bind(c, name="lap_certified_counts")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: certified
+      integer(c_int64_t), intent(inout), optional :: vertices
+      integer(c_int64_t), intent(inout), optional :: triangles
+      integer(c_int64_t), intent(inout), optional :: faces
+      integer(c_int64_t), intent(inout), optional :: cells
+    end function
+  end interface
+
+  public :: lap_certified_vertices
+  interface
+    ! The vertices.
+    !
+    ! Outputs (each may be NULL; borrowed as the handle): count; xyz: 3 × count coordinates.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if certified is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_certified_vertices(certified, count, xyz) bind(c, name="lap_certified_vertices")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: certified
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: xyz
+    end function
+  end interface
+
+  public :: lap_certified_triangles
+  interface
+    ! The triangles, by faces.
+    !
+    ! Outputs (each may be NULL; borrowed as the handle): count; vertices: 3 × count, anticlockwise seen with the
+    ! face's normal up; cells: 2 × count, the cell behind each triangle and the cell before it (-1: outside), as
+    ! lap_complex_face_cells has them for faces; face_count; face_triangles: face_count + 1: face f has the triangles
+    ! face_triangles[f] up to, not including, face_triangles[f + 1]. Where a cell between two faces went, in whole or in
+    ! part, triangles of both are one: it is in the face with the lower number, between the cells that are left.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if certified is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_certified_triangles(certified, count, vertices, cells, face_count, &
+      face_triangles) bind(c, name="lap_certified_triangles")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: certified
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: vertices
+      type(c_ptr), intent(inout), optional :: cells
+      integer(c_int64_t), intent(inout), optional :: face_count
+      type(c_ptr), intent(inout), optional :: face_triangles
+    end function
+  end interface
+
+  public :: lap_certified_maps
+  interface
+    ! From the complex's vertices, faces and cells to those here.
+    !
+    ! Outputs (each may be NULL; borrowed as the handle): n_vertices, n_faces, n_cells: the numbers of the complex;
+    ! vertices, faces, cells: for each the index here, -1 for one that is gone. A vertex that was merged has the index
+    ! of the one that stands for it.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if certified is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_certified_maps(certified, n_vertices, vertices, n_faces, faces, n_cells, &
+      cells) bind(c, name="lap_certified_maps")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: certified
+      integer(c_int64_t), intent(inout), optional :: n_vertices
+      type(c_ptr), intent(inout), optional :: vertices
+      integer(c_int64_t), intent(inout), optional :: n_faces
+      type(c_ptr), intent(inout), optional :: faces
+      integer(c_int64_t), intent(inout), optional :: n_cells
+      type(c_ptr), intent(inout), optional :: cells
+    end function
+  end interface
+
+  public :: lap_certified_report
+  interface
+    ! The report.
+    !
+    ! report: written; struct_size: pass (int32_t)sizeof(lap_certify_report); no more than that is written.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER; LAP_ERR_BAD_ARGUMENT if the size is not a multiple of 4 in 4..4096. Threads: any.
+    ! Cost: none.
+    integer(c_int32_t) function lap_certified_report(certified, report, &
+      struct_size) bind(c, name="lap_certified_report")
+      import :: c_int32_t, c_ptr, lap_certify_report
+      type(c_ptr), value :: certified
+      type(lap_certify_report), intent(inout), optional :: report
+      integer(c_int32_t), value :: struct_size
+    end function
+  end interface
+
+  public :: lap_certified_open
+  interface
+    ! What remains uncertified, in numbers of the complex (not of this handle).
+    !
+    ! Outputs (each may be NULL; borrowed as the handle): n_pairs; pairs: 2 × n_pairs faces whose triangles meet, the
+    ! lower first; twice the same face for one that meets itself or has a triangle without area; n_cells; cells: those
+    ! with a volume, or a void, of the wrong sign (asked only if there are no pairs). All are empty for a certified
+    ! result.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if certified is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_certified_open(certified, n_pairs, pairs, n_cells, &
+      cells) bind(c, name="lap_certified_open")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: certified
+      integer(c_int64_t), intent(inout), optional :: n_pairs
+      type(c_ptr), intent(inout), optional :: pairs
+      integer(c_int64_t), intent(inout), optional :: n_cells
+      type(c_ptr), intent(inout), optional :: cells
+    end function
+  end interface
+
+  public :: lap_grid_options_init
+  interface
+    ! Fills grid options with the defaults.
+    !
+    ! struct_size: pass (int32_t)sizeof(lap_grid_options); no more than that is written, so a program compiled against
+    ! an older header keeps working.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER; LAP_ERR_BAD_ARGUMENT if the size is not a multiple of 4 in 4..4096.
+    integer(c_int32_t) function lap_grid_options_init(options, struct_size) bind(c, name="lap_grid_options_init")
+      import :: c_int32_t, lap_grid_options
+      type(lap_grid_options), intent(inout), optional :: options
+      integer(c_int32_t), value :: struct_size
+    end function
+  end interface
+
+  public :: lap_grid_new
+  interface
+    ! Cuts a block of a rectilinear grid along the surface of a solid.
+    !
+    ! Inputs (borrowed for the call): mesh; x, y, z: the n_x, n_y, n_z coordinates of the whole grid's nodes along each
+    ! axis, strictly rising, at least two, each taken as the exact number that it is: they alone say where the grid's
+    ! planes are, and ranks that pass the same numbers get the same planes; options: or NULL for the defaults (the whole
+    ! grid, fluid inside the solid). Grid planes may pass through vertices and edges of the mesh, and triangles may lie
+    ! in them. grid: receives the handle, NULL after an error or cancel; free it with lap_grid_free. It does not need
+    ! the mesh handle or the context to stay alive.
+    !
+    ! Errors: LAP_ERR_BAD_ARGUMENT with a message that names the node for coordinates that are not finite or do not
+    ! rise, for a block that is empty or outside the grid, and for a known node outside the block or on the surface;
+    ! LAP_ERR_INCONSISTENT for input that intersects itself; LAP_ERR_TOO_LARGE if the block has 2147483647 nodes or more
+    ! or the result more elements than 32-bit indices can number; LAP_ERR_NULL_POINTER, LAP_ERR_CANCELLED,
+    ! LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: a byte per box, else it grows with the number of cut boxes and of
+    ! triangles.
+    integer(c_int32_t) function lap_grid_new(context, mesh, n_x, x, n_y, y, n_z, z, options, &
+      grid) bind(c, name="lap_grid_new")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr, lap_grid_options
+      type(c_ptr), value :: context
+      type(c_ptr), value :: mesh
+      integer(c_int64_t), value :: n_x
+      real(c_double), intent(in), optional :: x(*)
+      integer(c_int64_t), value :: n_y
+      real(c_double), intent(in), optional :: y(*)
+      integer(c_int64_t), value :: n_z
+      real(c_double), intent(in), optional :: z(*)
+      type(lap_grid_options), intent(in), optional :: options
+      type(c_ptr), intent(inout), optional :: grid
+    end function
+  end interface
+
+  public :: lap_grid_free
+  interface
+    ! Frees a grid and all that was borrowed from it, its complex included. NULL is allowed and does nothing.
+    !
+    ! Errors: none.
+    integer(c_int32_t) function lap_grid_free(grid) bind(c, name="lap_grid_free")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value :: grid
+    end function
+  end interface
+
+  public :: lap_grid_block
+  interface
+    ! The block and the whole grid.
+    !
+    ! Outputs (each may be NULL; borrowed until the grid is freed): boxes: 3 numbers, the boxes of the block along x, y,
+    ! z; first: 3 numbers, the indices of the block's first box in the whole grid; total: 3 numbers, the boxes of the
+    ! whole grid; x, y, z: boxes[0] + 1, boxes[1] + 1, boxes[2] + 1 coordinates of the block's nodes, as given (-0 as
+    ! 0).
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if grid is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_grid_block(grid, boxes, first, total, x, y, z) bind(c, name="lap_grid_block")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value :: grid
+      type(c_ptr), intent(inout), optional :: boxes
+      type(c_ptr), intent(inout), optional :: first
+      type(c_ptr), intent(inout), optional :: total
+      type(c_ptr), intent(inout), optional :: x
+      type(c_ptr), intent(inout), optional :: y
+      type(c_ptr), intent(inout), optional :: z
+    end function
+  end interface
+
+  public :: lap_grid_counts
+  interface
+    ! How many boxes there are of each kind, and how many elements the cut boxes have: cells; faces, of which the first
+    ! so many are walls; vertices.
+    !
+    ! Outputs: each may be NULL. Errors: LAP_ERR_NULL_POINTER if grid is NULL. Threads: any. Cost: one pass over the
+    ! flags at the first call, then none.
+    integer(c_int32_t) function lap_grid_counts(grid, empty, full, cut, cells, faces, walls, &
+      vertices) bind(c, name="lap_grid_counts")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: grid
+      integer(c_int64_t), intent(inout), optional :: empty
+      integer(c_int64_t), intent(inout), optional :: full
+      integer(c_int64_t), intent(inout), optional :: cut
+      integer(c_int64_t), intent(inout), optional :: cells
+      integer(c_int64_t), intent(inout), optional :: faces
+      integer(c_int64_t), intent(inout), optional :: walls
+      integer(c_int64_t), intent(inout), optional :: vertices
+    end function
+  end interface
+
+  public :: lap_grid_flags
+  interface
+    ! What each box is: LAP_BOX_EMPTY, LAP_BOX_FULL or LAP_BOX_CUT.
+    !
+    ! Outputs (each may be NULL; borrowed until the grid is freed): count: the number of boxes of the block; flags:
+    ! count, box (i, j, k) at i + nx (j + ny k).
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if grid is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_grid_flags(grid, count, flags) bind(c, name="lap_grid_flags")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: grid
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: flags
+    end function
+  end interface
+
+  public :: lap_grid_cut_boxes
+  interface
+    ! The boxes that are cut, and their cells.
+    !
+    ! Outputs (each may be NULL; borrowed until the grid is freed): count: the number of cut boxes; boxes: count numbers
+    ! of boxes, rising; box_cells: count + 1: box boxes[i] has the cells box_cells[i] up to, not including, box_cells[i
+    ! + 1].
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if grid is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_grid_cut_boxes(grid, count, boxes, box_cells) bind(c, name="lap_grid_cut_boxes")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: grid
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: boxes
+      type(c_ptr), intent(inout), optional :: box_cells
+    end function
+  end interface
+
+  public :: lap_grid_box_cells
+  interface
+    ! From every box to its cells, for those who have the memory: as lap_grid_cut_boxes, but for all boxes.
+    !
+    ! Outputs (each may be NULL; borrowed until the grid is freed): count: the number of boxes; offsets: count + 1: box
+    ! b has the cells offsets[b] up to, not including, offsets[b + 1]; none unless it is cut.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if grid is NULL. Threads: any. Cost: 4 bytes per box and a pass over them at the
+    ! first call, then none.
+    integer(c_int32_t) function lap_grid_box_cells(grid, count, offsets) bind(c, name="lap_grid_box_cells")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: grid
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: offsets
+    end function
+  end interface
+
+  public :: lap_grid_box
+  interface
+    ! One box of the block: what it is, and its cells.
+    !
+    ! i, j, k: the box, from the block's low corner. Outputs (each may be NULL): flag: LAP_BOX_*; first: its first cell,
+    ! 0 unless it is cut; count: the number of its cells, 0 unless it is cut.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if grid is NULL, LAP_ERR_BAD_ARGUMENT for a box outside the block. Threads: any.
+    ! Cost: a binary search.
+    integer(c_int32_t) function lap_grid_box(grid, i, j, k, flag, first, count) bind(c, name="lap_grid_box")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value :: grid
+      integer(c_int32_t), value :: i
+      integer(c_int32_t), value :: j
+      integer(c_int32_t), value :: k
+      integer(c_int32_t), intent(inout), optional :: flag
+      integer(c_int32_t), intent(inout), optional :: first
+      integer(c_int32_t), intent(inout), optional :: count
+    end function
+  end interface
+
+  public :: lap_grid_stage_count
+  interface
+    ! How many stages the making of the grid ran through.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_grid_stage_count(grid, count) bind(c, name="lap_grid_stage_count")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value :: grid
+      integer(c_int32_t), intent(inout), optional :: count
+    end function
+  end interface
+
+  public :: lap_grid_stage
+  interface
+    ! Stage i, from 0, in the order in which they ran: its name and its time in seconds.
+    !
+    ! Outputs (each may be NULL). name is borrowed until the grid is freed.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if grid is NULL, LAP_ERR_BAD_ARGUMENT if there is no such stage. Threads: any. Cost:
+    ! none.
+    integer(c_int32_t) function lap_grid_stage(grid, i, name, seconds) bind(c, name="lap_grid_stage")
+      import :: c_double, c_int32_t, c_ptr
+      type(c_ptr), value :: grid
+      integer(c_int32_t), value :: i
+      type(c_ptr), intent(inout), optional :: name
+      real(c_double), intent(inout), optional :: seconds
+    end function
+  end interface
+
+  public :: lap_grid_vertices
+  interface
+    ! The vertices of the cut cells: each coordinate the double nearest to the exact one (ties to even, zero as +0), in
+    ! the units of the input. A coordinate on a grid plane is the node's, bit for bit.
+    !
+    ! Outputs (each may be NULL; borrowed until the grid is freed): count; xyz: 3 × count; on_planes: count numbers,
+    ! bit a (1, 2, 4) set where the vertex lies on a grid plane across axis a (x, y, z), exactly.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if grid is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_grid_vertices(grid, count, xyz, on_planes) bind(c, name="lap_grid_vertices")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: grid
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: xyz
+      type(c_ptr), intent(inout), optional :: on_planes
+    end function
+  end interface
+
+  public :: lap_grid_faces
+  interface
+    ! The faces of the cut cells, with their holes: walls first, then faces in grid planes. A face is a set of loops,
+    ! the outer loop first, then holes; seen with the face's normal up, the outer loop runs anticlockwise and holes run
+    ! clockwise. A loop is a cyclic run of corners; an isolated vertex inside a face is a hole of one corner. A wall has
+    ! one loop.
+    !
+    ! Outputs (each may be NULL; borrowed until the grid is freed): count: the number of faces; face_loops: count + 1,
+    ! face f has the loops face_loops[f] up to, not including, face_loops[f + 1]; loop_corners: number of loops + 1,
+    ! loop l has the corners loop_corners[l] up to, not including, loop_corners[l + 1]; corner_vertices: the vertex of
+    ! each corner.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if grid is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_grid_faces(grid, count, face_loops, loop_corners, &
+      corner_vertices) bind(c, name="lap_grid_faces")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: grid
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: face_loops
+      type(c_ptr), intent(inout), optional :: loop_corners
+      type(c_ptr), intent(inout), optional :: corner_vertices
+    end function
+  end interface
+
+  public :: lap_grid_walls
+  interface
+    ! The walls: faces 0 up to count. Each is the part of a triangle of the mesh inside one box.
+    !
+    ! Outputs (each may be NULL; borrowed until the grid is freed): count: the number of walls; triangles: count: the
+    ! triangle that each lies on, by its place in the caller's array or, where triangle ids were given, by its id; never
+    ! falling in the order of places; tags: count: the tag of that triangle, NULL if the mesh has none; cells: count:
+    ! the cell that the wall bounds.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if grid is NULL, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: linear in the walls at
+    ! the first call that asks for triangles or tags, then none.
+    integer(c_int32_t) function lap_grid_walls(grid, count, triangles, tags, cells) bind(c, name="lap_grid_walls")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: grid
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: triangles
+      type(c_ptr), intent(inout), optional :: tags
+      type(c_ptr), intent(inout), optional :: cells
+    end function
+  end interface
+
+  public :: lap_grid_plane_faces
+  interface
+    ! The faces in grid planes that bound cut cells: all after the walls. Face first + i is square i's, or a part of it.
+    ! Squares between full boxes, or between a full box and the boundary of the block, are not among them
+    ! (lap_grid_full_faces).
+    !
+    ! Outputs (each may be NULL; borrowed until the grid is freed): first: the number of walls, hence the first face;
+    ! count: the number of faces in grid planes; axes: 4 faces: those across axis a (0: x, 1: y, 2: z) are axes[a] up
+    ! to, not including, axes[a + 1], by rising plane; nodes: count: the number of the lowest node of the square of the
+    ! grid that holds the face; cells: 2 × count: the cell on the lower side and the one on the upper side,
+    ! LAP_CELL_FULL for that of a full box, LAP_CELL_NONE at the block's boundary. Never NONE on both sides. The square
+    ! of node (i, j, k) across x lies between the boxes (i - 1, j, k) and (i, j, k), and so on; the normals point along
+    ! the axis.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if grid is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_grid_plane_faces(grid, first, count, axes, nodes, &
+      cells) bind(c, name="lap_grid_plane_faces")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: grid
+      integer(c_int64_t), intent(inout), optional :: first
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: axes
+      type(c_ptr), intent(inout), optional :: nodes
+      type(c_ptr), intent(inout), optional :: cells
+    end function
+  end interface
+
+  public :: lap_grid_cells
+  interface
+    ! The cut cells. A cell is bounded by shells, the outer shell first, then voids; a shell is a closed set of
+    ! half-faces.
+    !
+    ! Outputs (each may be NULL; borrowed until the grid is freed): count: the number of cells; boxes: count: the number
+    ! of the box that holds the cell, never falling; cell_shells: count + 1, cell c has the shells cell_shells[c] up to,
+    ! not including, cell_shells[c + 1]; shell_faces: number of shells + 1, shell s has the half-faces
+    ! half_faces[shell_faces[s]] up to, not including, half_faces[shell_faces[s + 1]]; half_faces: 2 f + side, side 0
+    ! where the normal of face f points out of the cell, 1 where it points into it; rising in each shell.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if grid is NULL, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: linear in the cells at
+    ! the first call that asks for boxes, then none.
+    integer(c_int32_t) function lap_grid_cells(grid, count, boxes, cell_shells, shell_faces, &
+      half_faces) bind(c, name="lap_grid_cells")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: grid
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: boxes
+      type(c_ptr), intent(inout), optional :: cell_shells
+      type(c_ptr), intent(inout), optional :: shell_faces
+      type(c_ptr), intent(inout), optional :: half_faces
+    end function
+  end interface
+
+  public :: lap_grid_vertex_keys
+  interface
+    ! The keys of the vertices, as lap_complex_vertex_keys makes them: from the ids of triangles and the places of
+    ! planes in the whole grid, so that blocks which share a vertex give it the same key.
+    !
+    ! Outputs (each may be NULL; borrowed until the grid is freed): count; keys: 2 × count, the first number of a pair
+    ! never negative. Plane i across x has the number i, i counted in the whole grid; those across y follow, then those
+    ! across z.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if grid is NULL, LAP_ERR_INCONSISTENT for input that intersects itself,
+    ! LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: some hundred nanoseconds per vertex and face at the first call of this
+    ! or lap_grid_face_keys, then none.
+    integer(c_int32_t) function lap_grid_vertex_keys(grid, count, keys) bind(c, name="lap_grid_vertex_keys")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: grid
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: keys
+    end function
+  end interface
+
+  public :: lap_grid_face_keys
+  interface
+    ! The keys of the faces, walls first, as lap_complex_face_keys makes them: the face that two blocks share has the
+    ! same key in both, and no other face has.
+    !
+    ! Outputs (each may be NULL; borrowed until the grid is freed): count; keys: 2 × count, the first number of a pair
+    ! never negative.
+    !
+    ! Errors: as lap_grid_vertex_keys, and so are threads and cost.
+    integer(c_int32_t) function lap_grid_face_keys(grid, count, keys) bind(c, name="lap_grid_face_keys")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: grid
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: keys
+    end function
+  end interface
+
+  public :: lap_grid_cell_moments
+  interface
+    ! Volumes of the cut cells.
+    !
+    ! Conventions of all these arrays: lengths, areas and volumes are in powers of the input's unit; fractions are
+    ! relative to the whole box or to the whole square of the grid, so in (0, 1]; coordinates are absolute, not relative
+    ! to the box. A box that is full has fraction 1 and its middle as its centroid, one that is empty has fraction 0. A
+    ! box in several parts has several cells, whose fractions add up. Every number is within one unit in the last place
+    ! of the exact value and depends on that value alone: not on threads, blocks or the order of the input. Sums close
+    ! accordingly: the areas of a cell's faces in grid planes and its boundary area vector cancel within half a unit in
+    ! the last place per term.
+    !
+    ! Outputs (each may be NULL; borrowed until the grid is freed): count: the number of cut cells; volumes: count;
+    ! fractions: count, volume over the volume of the box; centroids: 3 × count; flags: count, nonzero where a value of
+    ! this cell (boundary included) is beyond the range of double: it is then infinite, or 0.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if grid is NULL, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: about a microsecond per
+    ! cut cell at the first call of this function, lap_grid_cell_boundaries or lap_grid_plane_face_moments, then none.
+    integer(c_int32_t) function lap_grid_cell_moments(grid, count, volumes, fractions, centroids, &
+      flags) bind(c, name="lap_grid_cell_moments")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: grid
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: volumes
+      type(c_ptr), intent(inout), optional :: fractions
+      type(c_ptr), intent(inout), optional :: centroids
+      type(c_ptr), intent(inout), optional :: flags
+    end function
+  end interface
+
+  public :: lap_grid_cell_boundaries
+  interface
+    ! The embedded boundary of each cut cell: all its walls together.
+    !
+    ! Outputs (each may be NULL; borrowed until the grid is freed): count: the number of cut cells; area_vectors: 3 ×
+    ! count, the sum of the area vectors of the cell's walls, pointing out of the fluid; centroids: 3 × count, the mean
+    ! of the positions on the walls, weighted by area (the cell's centroid if it has no wall).
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if grid is NULL, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: as lap_grid_cell_moments.
+    integer(c_int32_t) function lap_grid_cell_boundaries(grid, count, area_vectors, &
+      centroids) bind(c, name="lap_grid_cell_boundaries")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: grid
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: area_vectors
+      type(c_ptr), intent(inout), optional :: centroids
+    end function
+  end interface
+
+  public :: lap_grid_plane_face_moments
+  interface
+    ! The faces in grid planes, in the order of lap_grid_plane_faces, which says what cells each joins.
+    !
+    ! Outputs (each may be NULL; borrowed until the grid is freed): count: the number of faces in grid planes; areas:
+    ! count; fractions: count, area over the area of the square; centroids: 3 × count, the coordinate across the plane
+    ! being the plane's node, bit for bit; flags: count, nonzero where a value is beyond the range of double: it is then
+    ! infinite, or 0. The area vector of a face is its area along the axis.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if grid is NULL, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: as lap_grid_cell_moments.
+    integer(c_int32_t) function lap_grid_plane_face_moments(grid, count, areas, fractions, centroids, &
+      flags) bind(c, name="lap_grid_plane_face_moments")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: grid
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: areas
+      type(c_ptr), intent(inout), optional :: fractions
+      type(c_ptr), intent(inout), optional :: centroids
+      type(c_ptr), intent(inout), optional :: flags
+    end function
+  end interface
+
+  public :: lap_grid_wall_moments
+  interface
+    ! The walls one by one, in the order of lap_grid_walls, which says what triangle, tag and cell each has.
+    !
+    ! Outputs (each may be NULL; borrowed until the grid is freed): count: the number of walls; area_vectors: 3 ×
+    ! count, pointing out of the fluid; centroids: 3 × count.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if grid is NULL, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: some 200 ns and 48 bytes
+    ! per wall at the first call, then none.
+    integer(c_int32_t) function lap_grid_wall_moments(grid, count, area_vectors, &
+      centroids) bind(c, name="lap_grid_wall_moments")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: grid
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: area_vectors
+      type(c_ptr), intent(inout), optional :: centroids
+    end function
+  end interface
+
+  public :: lap_grid_cell_walls
+  interface
+    ! The walls of each cut cell.
+    !
+    ! Outputs (each may be NULL; borrowed until the grid is freed): count: the number of cut cells; offsets: count + 1;
+    ! walls: those of cell c are walls[offsets[c]] up to, not including, walls[offsets[c + 1]], rising. With
+    ! lap_grid_walls they lead to the triangles and tags behind a cell.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if grid is NULL, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: linear in the walls at
+    ! the first call, then none.
+    integer(c_int32_t) function lap_grid_cell_walls(grid, count, offsets, walls) bind(c, name="lap_grid_cell_walls")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: grid
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: offsets
+      type(c_ptr), intent(inout), optional :: walls
+    end function
+  end interface
+
+  public :: lap_grid_cell_tags
+  interface
+    ! The embedded boundary of each cut cell by tag of the triangles: what a boundary patch has of the cell.
+    !
+    ! Outputs (each may be NULL; borrowed until the grid is freed): count: the number of cut cells; offsets: count + 1:
+    ! cell c has the entries offsets[c] up to, not including, offsets[c + 1]; tags: the tag of each entry, rising in a
+    ! cell (0 for a mesh without tags); area_vectors: 3 per entry, pointing out of the fluid; centroids: 3 per entry,
+    ! weighted by area.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if grid is NULL, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: as lap_grid_cell_moments,
+    ! and again for cells with several tags, at the first call, then none.
+    integer(c_int32_t) function lap_grid_cell_tags(grid, count, offsets, tags, area_vectors, &
+      centroids) bind(c, name="lap_grid_cell_tags")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: grid
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: offsets
+      type(c_ptr), intent(inout), optional :: tags
+      type(c_ptr), intent(inout), optional :: area_vectors
+      type(c_ptr), intent(inout), optional :: centroids
+    end function
+  end interface
+
+contains
+
+  function lap_text(address) result(text)
+    type(c_ptr), intent(in) :: address
+    character(len=:), allocatable :: text
+    character(kind=c_char), pointer :: letters(:)
+    integer :: i, length
+    interface
+      function strlen(s) bind(c, name="strlen") result(length)
+        import :: c_ptr, c_size_t
+        type(c_ptr), value :: s
+        integer(c_size_t) :: length
+      end function
+    end interface
+    length = 0
+    if (c_associated(address)) length = int(strlen(address))
+    allocate (character(len=length) :: text)
+    if (length == 0) return
+    call c_f_pointer(address, letters, [length])
+    do i = 1, length
+      text(i:i) = letters(i)
+    end do
+  end function
+
+  subroutine view_int8(address, count, view)
+    type(c_ptr), intent(in) :: address
+    integer(c_int64_t), intent(in) :: count
+    integer(c_int8_t), pointer, intent(out) :: view(:)
+    view => no_int8
+    if (c_associated(address) .and. count > 0) call c_f_pointer(address, view, [count])
+  end subroutine
+
+  subroutine view_int32(address, count, view)
+    type(c_ptr), intent(in) :: address
+    integer(c_int64_t), intent(in) :: count
+    integer(c_int32_t), pointer, intent(out) :: view(:)
+    view => no_int32
+    if (c_associated(address) .and. count > 0) call c_f_pointer(address, view, [count])
+  end subroutine
+
+  subroutine columns_int32(address, rows, count, view)
+    type(c_ptr), intent(in) :: address
+    integer, intent(in) :: rows
+    integer(c_int64_t), intent(in) :: count
+    integer(c_int32_t), pointer, intent(out) :: view(:, :)
+    view(1:rows, 1:0) => no_int32
+    if (c_associated(address) .and. count > 0) call c_f_pointer(address, view, [int(rows, c_int64_t), count])
+  end subroutine
+
+  subroutine view_int64(address, count, view)
+    type(c_ptr), intent(in) :: address
+    integer(c_int64_t), intent(in) :: count
+    integer(c_int64_t), pointer, intent(out) :: view(:)
+    view => no_int64
+    if (c_associated(address) .and. count > 0) call c_f_pointer(address, view, [count])
+  end subroutine
+
+  subroutine columns_int64(address, rows, count, view)
+    type(c_ptr), intent(in) :: address
+    integer, intent(in) :: rows
+    integer(c_int64_t), intent(in) :: count
+    integer(c_int64_t), pointer, intent(out) :: view(:, :)
+    view(1:rows, 1:0) => no_int64
+    if (c_associated(address) .and. count > 0) call c_f_pointer(address, view, [int(rows, c_int64_t), count])
+  end subroutine
+
+  subroutine view_double(address, count, view)
+    type(c_ptr), intent(in) :: address
+    integer(c_int64_t), intent(in) :: count
+    real(c_double), pointer, intent(out) :: view(:)
+    view => no_double
+    if (c_associated(address) .and. count > 0) call c_f_pointer(address, view, [count])
+  end subroutine
+
+  subroutine columns_double(address, rows, count, view)
+    type(c_ptr), intent(in) :: address
+    integer, intent(in) :: rows
+    integer(c_int64_t), intent(in) :: count
+    real(c_double), pointer, intent(out) :: view(:, :)
+    view(1:rows, 1:0) => no_double
+    if (c_associated(address) .and. count > 0) call c_f_pointer(address, view, [int(rows, c_int64_t), count])
+  end subroutine
+end module
