@@ -277,6 +277,9 @@ module lapidary
     ! Nonzero: the fluid is outside the solid, as in external flow (the grid's box minus the bodies). 0, the default:
     ! the fluid is the solid's inside.
     integer(c_int32_t) :: outside
+    ! Nonzero: run lap_grid_check on the result and fail with LAP_ERR_INCONSISTENT if it does not hold. 0, the default:
+    ! do not.
+    integer(c_int32_t) :: check
     ! The block: boxes block_low[a] up to, not including, block_high[a] of the whole grid along axis a (0: x, 1: y, 2:
     ! z). -1 as block_high[a] stands for the number of boxes. Default: 0 and -1, the whole grid.
     integer(c_int32_t) :: block_low(3)
@@ -1649,6 +1652,40 @@ module lapidary
       integer(c_int32_t), intent(inout), optional :: flag
       integer(c_int32_t), intent(inout), optional :: first
       integer(c_int32_t), intent(inout), optional :: count
+    end function
+  end interface
+
+  public :: lap_grid_complex
+  interface
+    ! The cut cells as an ordinary complex, on which all functions for lap_complex work. Its cells and its faces are
+    ! numbered as here, and so are its vertices; its planes are the block's grid planes, those across x first, then y,
+    ! then z, each by rising coordinate, with the equation x - node = 0. Its triangles are those of the mesh; where the
+    ! fluid is outside they are reversed. A face towards a full box or on the boundary of the block has a cell on one
+    ! side only, which may be the front. The volume and the Euler characteristic are those of the cut cells, not of the
+    ! solid.
+    !
+    ! complex: borrowed until the grid is freed; do not free it.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER, LAP_ERR_TOO_LARGE, LAP_ERR_INCONSISTENT. Threads: any. Cost: linear in the cut cells
+    ! and about as much memory again, at the first call, then none.
+    integer(c_int32_t) function lap_grid_complex(grid, complex) bind(c, name="lap_grid_complex")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value :: grid
+      type(c_ptr), intent(inout), optional :: complex
+    end function
+  end interface
+
+  public :: lap_grid_check
+  interface
+    ! Checks that a cut grid is consistent: indices in range, loops closed, faces between the cells that name them,
+    ! cells closed.
+    !
+    ! Errors: LAP_ERR_INCONSISTENT with a message that names the element; LAP_ERR_NULL_POINTER, LAP_ERR_OUT_OF_MEMORY,
+    ! LAP_ERR_BUSY. Cost: linear in the cut cells, and a pass over the flags.
+    integer(c_int32_t) function lap_grid_check(context, grid) bind(c, name="lap_grid_check")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value :: context
+      type(c_ptr), value :: grid
     end function
   end interface
 
