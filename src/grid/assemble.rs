@@ -7,7 +7,7 @@ use super::ground::{Ground, Slabs, on_plane};
 use super::lines::Lines;
 use super::pieces::Pieces;
 use super::points::Points;
-use super::squares::{Squares, sides};
+use super::squares::Squares;
 use super::touched::{Bits, Touched};
 use crate::base::{CellId, VertexId};
 use crate::complex::Origin;
@@ -89,11 +89,14 @@ pub struct Found {
     pub cells: Cells,
 }
 
-pub fn assemble(ground: Ground, found: Found) -> GridCells {
+pub fn assemble(mut ground: Ground, found: Found) -> GridCells {
     let Found { mut pieces, mut points, lines, mut squares, touched, cells } = found;
     let flags = flags(&ground, &touched, &lines, &cells);
+    // What is no longer read goes before the arrays that stay are made.
     let (edge_points, inner_points) = (ground.first_edge_point() as usize, ground.first_inner_point() as usize);
+    (ground.classified, ground.points) = Default::default();
     let nodes = lines.first_node as usize;
+    drop(lines);
     let numbering = renumber(&pieces, &squares, [edge_points, inner_points, nodes], points.origins.len());
     let number = &numbering.number;
     let bits = |s: &Slabs| (0..3).fold(0, |bits, a| bits | (on_plane(s[a]) as u8) << a);
@@ -101,15 +104,13 @@ pub fn assemble(ground: Ground, found: Found) -> GridCells {
     on_planes.extend(ground.slabs.iter().map(bits));
     on_planes.extend(pieces.point_slabs.iter().map(bits));
     on_planes.resize(points.origins.len(), 7);
+    ground.slabs = Vec::new();
     keep(&mut on_planes, number);
     keep(&mut points.origins, number);
     keep(&mut points.coords, number);
     keep(&mut points.residuals, &number[edge_points..nodes]);
     let Ground { mesh, lattice, .. } = ground;
-    drop(lines);
-    pieces.point_slabs = Vec::new();
-    pieces.point_triangle = Vec::new();
-    pieces.point_pair = Vec::new();
+    (pieces.point_slabs, pieces.point_triangle, pieces.point_pair) = Default::default();
 
     let walls = pieces.triangle.len();
     let mut grid = GridCells {
@@ -134,15 +135,8 @@ pub fn assemble(ground: Ground, found: Found) -> GridCells {
     grid.loop_offsets.extend(squares.loops.offsets[1..].iter().map(|o| o + first_corner));
     grid.face_loops = (0..=walls as u32).collect();
     grid.face_loops.extend(squares.face_loops[1..].iter().map(|l| l + walls as u32));
-    grid.square_cells = squares
-        .node
-        .iter()
-        .enumerate()
-        .map(|(i, &node)| {
-            let axis = (i as u32 >= squares.axis_faces[1]) as usize + (i as u32 >= squares.axis_faces[2]) as usize;
-            sides(&touched, &lattice, axis, node).map(|side| side.cell())
-        })
-        .collect();
+    // Sides that are touched boxes become cells below.
+    grid.square_cells = squares.sides;
     grid.square_node = squares.node;
     grid.box_cells.push(0);
     for (&b, w) in touched.boxes.iter().zip(cells.box_cells.windows(2)) {

@@ -11,9 +11,10 @@
 //! Invariant: each half-face is in one shell, each edge of a shell is walked once each way. Cost: linear; a small table of a box's edges,
 //! reused, instead of numbered edges for the whole complex (those would cost more memory than all that is kept).
 
+use super::data::FULL_CELL;
 use super::ground::Ground;
 use super::pieces::Pieces;
-use super::squares::{Side, Squares, sides};
+use super::squares::Squares;
 use super::touched::Touched;
 use super::voids;
 use crate::base::{Csr, Error, FaceId, Result, TriangleId, VertexId};
@@ -79,14 +80,11 @@ pub fn by_box(ground: &Ground, pieces: &Pieces, squares: &Squares, touched: &Tou
         .iter()
         .enumerate()
         .map(|(f, &b)| (touched.rank(lattice.box_at(b)), HalfFace::new(FaceId::of(f), false)));
-    let of_squares = squares.node.iter().enumerate().flat_map(move |(i, &node)| {
-        let i = i as u32;
-        let axis = (i >= squares.axis_faces[1]) as usize + (i >= squares.axis_faces[2]) as usize;
-        let face = FaceId(walls as u32 + i);
-        let sides = sides(touched, lattice, axis, node);
-        [false, true].into_iter().filter_map(move |front| match sides[front as usize] {
-            Side::Touched(rank) => Some((rank as usize, HalfFace::new(face, front))),
-            _ => None,
+    let of_squares = squares.sides.iter().enumerate().flat_map(move |(i, sides)| {
+        let face = FaceId::of(walls + i);
+        [false, true].into_iter().filter_map(move |front| {
+            let side = sides[front as usize];
+            (side < FULL_CELL).then(|| (side.at(), HalfFace::new(face, front)))
         })
     });
     Csr::from_pairs(touched.boxes.len(), of_walls.chain(of_squares))
@@ -121,19 +119,20 @@ pub fn cells(faces: &Faces) -> Result<Cells> {
     Ok(all)
 }
 
-/// An edge of the box, in the table: its ends, the first half-face at it and how many there are.
-#[derive(Clone, Copy)]
+/// An edge of a box, in the table: its ends, the first half-face at it, how many there are, and in which round the slot was taken: slots of
+/// earlier rounds are free.
+#[derive(Clone, Copy, Default)]
 struct Slot {
     ends: u64,
     first: u32,
-    count: u32,
+    count: u16,
+    round: u16,
 }
-
-const FREE: u64 = u64::MAX;
 
 #[derive(Default)]
 struct Scratch {
     table: Vec<Slot>,
+    round: u16,
     parent: Vec<u32>,
     /// Edges with more than two half-faces.
     crowded: Vec<u64>,
@@ -222,14 +221,19 @@ impl Scratch {
         for h in half_faces {
             faces.each_loop(h.face(), |row| corners += row.len());
         }
-        let size = (2 * corners).next_power_of_two();
+        let size = (2 * corners).next_power_of_two().max(self.table.len());
+        if size > self.table.len() || self.round == u16::MAX {
+            self.table.clear();
+            self.table.resize(size, Slot::default());
+            self.round = 0;
+        }
+        self.round += 1;
         let shift = 64 - size.trailing_zeros();
-        self.table.clear();
-        self.table.resize(size, Slot { ends: FREE, first: 0, count: 0 });
+        let mut odd = 0;
         self.parent.clear();
         self.parent.extend(0..half_faces.len() as u32);
         self.crowded.clear();
-        let Scratch { table, parent, crowded, .. } = self;
+        let Scratch { table, round, parent, crowded, .. } = self;
         for (i, h) in half_faces.iter().enumerate() {
             faces.each_loop(h.face(), |row| {
                 if row.len() < 2 {
@@ -242,12 +246,14 @@ impl Scratch {
                     let mut at = (ends.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> shift) as usize;
                     loop {
                         let slot = &mut table[at];
-                        if slot.ends == FREE {
-                            *slot = Slot { ends, first: i as u32, count: 1 };
+                        if slot.round != *round {
+                            *slot = Slot { ends, first: i as u32, count: 1, round: *round };
+                            odd += 1;
                             break;
                         }
                         if slot.ends == ends {
-                            slot.count += 1;
+                            slot.count = slot.count.saturating_add(1);
+                            odd = if slot.count & 1 == 0 { odd - 1 } else { odd + 1 };
                             match slot.count {
                                 2 => union(parent, slot.first, i as u32),
                                 3 => crowded.push(ends),
@@ -260,9 +266,9 @@ impl Scratch {
                 }
             });
         }
-        if table.iter().any(|slot| slot.count & 1 != 0) {
-            let odd = table.iter().filter(|slot| slot.count & 1 != 0).map(|slot| slot.ends).min().unwrap_or(0);
-            return Err(contradiction(faces, odd));
+        if odd != 0 {
+            let open = table.iter().filter(|slot| slot.round == *round && slot.count & 1 != 0);
+            return Err(contradiction(faces, open.map(|slot| slot.ends).min().unwrap_or(0)));
         }
         if !self.crowded.is_empty() {
             self.join_crowded(faces, half_faces)?;

@@ -54,7 +54,7 @@ impl GridCells {
                 }
             }
         }
-        for f in 0..faces {
+        for (f, &seen) in seen.iter().enumerate() {
             let both = match f.checked_sub(walls) {
                 None => 1,
                 Some(i) => {
@@ -70,7 +70,7 @@ impl GridCells {
                     is_cell[0] as u8 | (is_cell[1] as u8) << 1
                 }
             };
-            ensure(both != 0 && seen[f] == both, "each half-face of a face is in its cell")?;
+            ensure(both != 0 && seen == both, "each half-face of a face is in its cell")?;
         }
         for v in 0..self.origins.len() {
             for a in (0..3).filter(|a| self.on_planes[v] >> a & 1 != 0) {

@@ -314,13 +314,14 @@ impl Lines {
                 segment(from, self.node_vertex(node(first)), first - 1);
             }
             // Layers first..end - 1 between nodes.
-            for w in first as usize / 64..(end as usize - 1).div_ceil(64) {
+            let words = first as usize / 64..(end as usize - 1).div_ceil(64);
+            for (w, &word) in boxes.iter().enumerate().take(words.end).skip(words.start) {
                 let low = (first as usize).saturating_sub(w * 64);
                 let high = (end as usize - 1 - w * 64).min(64);
                 if low >= high {
                     continue;
                 }
-                let mut left = boxes[w] & ((!0u64 >> (64 - (high - low))) << low);
+                let mut left = word & ((!0u64 >> (64 - (high - low))) << low);
                 while left != 0 {
                     let q = (w * 64) as u32 + left.trailing_zeros();
                     left &= left - 1;

@@ -129,11 +129,13 @@ pub fn cut_grid(mesh: &Arc<TriMesh>, lattice: Lattice, options: &GridOptions, ru
     drop(contents);
     run.stage("cells", 0.75)?;
     let of_box = cells::by_box(&ground, &pieces, &squares, &touched);
+    pieces.in_box = Vec::new();
     let faces =
         cells::Faces { ground: &ground, all: &all, pieces: &pieces, squares: &squares, touched: &touched, of_box };
     let cells = cells::cells(&faces)?;
     debug_assert_eq!(cells.check(), Ok(()));
     drop(faces);
+    drop(sub);
     run.stage("assemble", 0.9)?;
     let found = assemble::Found { pieces, points, lines, squares, touched, cells };
     let grid = assemble::assemble(ground, found);

@@ -1,9 +1,8 @@
 //! Stage: correctly rounded coordinates of the points on mesh edges and in triangles, and what rounding took away.
 //!
-//! A coordinate on a grid plane is that plane's node. Of the rest, a point on a mesh edge is (a·(b_l − a_l) + (c − a_l)(b − a))/(b_l − a_l)
-//! for the plane x_l = c; a point in a triangle with normal n on two planes has a_c − (n_a(x_a − a_a) + n_b(x_b − a_b))/n_c.
-//! Numerator and denominator are double-doubles with bounds, so is their quotient; where it does not decide how to round (exact
-//! ties are common), `exact::round` does. Cost: about 0.1 µs per point.
+//! A coordinate on a grid plane is that plane's node. Of the rest, a point on a mesh edge is a + t(b − a), t = (c − a_l)/(b_l − a_l) for the
+//! plane x_l = c; a point in a triangle with normal n on two planes has a_c − (n_a(x_a − a_a) + n_b(x_b − a_b))/n_c.
+//! They are evaluated as double-doubles with bounds; where these do not decide how to round (exact ties are common), `exact::round` does. Cost: about 0.1 µs per point.
 
 use super::ground::{Ground, on_plane};
 use super::pieces::Pieces;
@@ -51,40 +50,51 @@ pub fn points(ground: &Ground, pieces: &Pieces, planes: &[Plane]) -> Points {
             };
             let node = |a: usize| on_plane(slabs[a]).then(|| ground.lattice.nodes[a][slabs[a] as usize / 2]);
             let known = [node(0), node(1), node(2)];
-            let decided = match origin {
-                Origin::Edge(e, p) => on_edge(ground, e, ground.lattice.plane_at(p).0, known, x, low, allowed),
-                Origin::Triangle(t, ..) => in_triangle(ground, t, known, x, low, allowed),
-                _ => false,
+            let values = match origin {
+                Origin::Edge(e, p) => on_edge(ground, e, ground.lattice.plane_at(p).0, known, allowed),
+                Origin::Triangle(t, ..) => in_triangle(ground, t, known, allowed),
+                _ => None,
             };
-            if !decided {
-                let point = origin_point(mesh, planes, origin);
+            let exactly = || origin_point(mesh, planes, origin);
+            let Some(values) = values else {
+                let point = exactly();
                 *x = exact::round(&point);
-                let exactly = exact::rational(&point);
+                let rational = exact::rational(&point);
                 *low = std::array::from_fn(|a| match Rational::from_f64(x[a]) {
-                    Some(rounded) => exact::round_rational(&(exactly[a].clone() - rounded)),
+                    Some(rounded) => exact::round_rational(&(rational[a].clone() - rounded)),
                     None => 0.0,
                 });
+                return;
+            };
+            let mut decided = true;
+            for a in 0..3 {
+                match (known[a], &values[a]) {
+                    (_, Some(q)) => decided &= settle(q, &mut x[a], &mut low[a]),
+                    (node, None) => x[a] = node.unwrap_or_default(),
+                }
+            }
+            if !decided {
+                // An exact tie, or nearly: the value is as good as before.
+                *x = exact::round(&exactly());
+                for a in 0..3 {
+                    if let Some(q) = &values[a] {
+                        low[a] = (q.hi - x[a]) + q.lo;
+                    }
+                }
             }
         },
     );
     Points { origins, coords, residuals, extent }
 }
 
-/// Fills in a coordinate and its residual; false if the bound leaves them open.
+/// Fills in a coordinate and its residual from a value with a bound that is small enough; whether the bound decides how to round.
 #[inline(always)]
-fn settle(n: &DoubleDouble, d: &DoubleDouble, allowed: f64, x: &mut f64, low: &mut f64) -> bool {
-    let Some(q) = n.over(d) else { return false };
-    if !(q.err <= allowed) {
-        return false;
-    }
+fn settle(q: &DoubleDouble, x: &mut f64, low: &mut f64) -> bool {
     let (lower, upper) = (q.hi + (q.lo - q.err).next_down(), q.hi + (q.lo + q.err).next_up());
-    if lower != upper {
-        return false;
-    }
     *x = lower + 0.0;
     // Exact: the two are neighbours at most.
     *low = (q.hi - lower) + q.lo;
-    true
+    lower == upper
 }
 
 #[inline(always)]
@@ -93,54 +103,37 @@ fn difference(x: f64, y: f64) -> DoubleDouble {
     DoubleDouble { hi, lo, err: 0.0 }
 }
 
-fn on_edge(
-    ground: &Ground,
-    e: EdgeId,
-    lead: usize,
-    known: [Option<f64>; 3],
-    x: &mut [f64; 3],
-    low: &mut [f64; 3],
-    allowed: f64,
-) -> bool {
+/// A point's coordinates, as far as they are not on planes: values with bounds.
+type Values = [Option<DoubleDouble>; 3];
+
+/// `None` where a bound is larger than allowed.
+fn on_edge(ground: &Ground, e: EdgeId, lead: usize, known: [Option<f64>; 3], allowed: f64) -> Option<Values> {
     let [a, b] = ground.mesh.edges[e.at()].map(|v| &ground.mesh.vertices[v.at()]);
-    let Some(plane) = known[lead] else { return false };
-    let (run, way) = (difference(b[lead], a[lead]), difference(plane, a[lead]));
-    for i in 0..3 {
-        match known[i] {
-            Some(node) => x[i] = node,
-            None if a[i] == b[i] => x[i] = a[i],
-            None => {
-                let n = DoubleDouble::exactly(a[i]).times(&run).plus(&way.times(&difference(b[i], a[i])));
-                if !settle(&n, &run, allowed, &mut x[i], &mut low[i]) {
-                    return false;
-                }
-            }
+    let t = difference(known[lead]?, a[lead]).over(&difference(b[lead], a[lead]))?;
+    let mut values = [None; 3];
+    for i in (0..3).filter(|&i| known[i].is_none()) {
+        let x = DoubleDouble::exactly(a[i]);
+        let x = if a[i] == b[i] { x } else { x.plus(&t.times(&difference(b[i], a[i]))) };
+        values[i] = Some(x);
+        if x.err.is_nan() || x.err > allowed {
+            return None;
         }
     }
-    true
+    Some(values)
 }
 
-fn in_triangle(
-    ground: &Ground,
-    t: TriangleId,
-    known: [Option<f64>; 3],
-    x: &mut [f64; 3],
-    low: &mut [f64; 3],
-    allowed: f64,
-) -> bool {
-    let Some(open) = known.iter().position(Option::is_none) else {
-        *x = known.map(Option::unwrap_or_default);
-        return true;
-    };
+fn in_triangle(ground: &Ground, t: TriangleId, known: [Option<f64>; 3], allowed: f64) -> Option<Values> {
+    let mut values = [None; 3];
+    let Some(open) = known.iter().position(Option::is_none) else { return Some(values) };
     let (i, j) = ((open + 1) % 3, (open + 2) % 3);
-    let (Some(p), Some(q)) = (known[i], known[j]) else { return false };
-    (x[i], x[j]) = (p, q);
+    let (p, q) = (known[i]?, known[j]?);
     let [a, b, c] = ground.mesh.corners(t);
     let (u, v): ([_; 3], [_; 3]) =
         (std::array::from_fn(|k| difference(b[k], a[k])), std::array::from_fn(|k| difference(c[k], a[k])));
     let minor = |k: usize, l: usize| u[k].times(&v[l]).minus(&u[l].times(&v[k]));
     let (ni, nj, no) = (minor(j, open), minor(open, i), minor(i, j));
     let moved = ni.times(&difference(p, a[i])).plus(&nj.times(&difference(q, a[j])));
-    let n = DoubleDouble::exactly(a[open]).times(&no).minus(&moved);
-    settle(&n, &no, allowed, &mut x[open], &mut low[open])
+    let x = DoubleDouble::exactly(a[open]).minus(&moved.over(&no)?);
+    values[open] = Some(x);
+    (x.err <= allowed).then_some(values)
 }

@@ -32,6 +32,8 @@ pub struct Squares {
     pub loops: Csr<VertexId>,
     /// The lowest node of each face's square.
     pub node: Vec<NodeId>,
+    /// What is below and above each square: a touched box, by its place among them, `FULL_CELL`, or `NONE`.
+    pub sides: Vec<[CellId; 2]>,
 }
 
 /// What the planes' graphs are made of, by plane.
@@ -79,6 +81,7 @@ pub fn squares(scene: &Scene) -> Result<Squares> {
         out.loops.items.extend(part.loops.items);
         out.loops.offsets.extend(part.loops.offsets[1..].iter().map(|o| o + corners));
         out.node.extend(part.node);
+        out.sides.extend(part.sides);
         out.axis_faces[plane.axis + 1..].fill(out.node.len() as u32);
     }
     Ok(out)
@@ -159,7 +162,9 @@ impl Scene<'_> {
         let faces = faces?;
         for loops in faces.faces.rows() {
             let outer = faces.loops.row(loops[0] as usize);
-            out.node.push(self.square_of(p, outer.iter().map(|c| c.0)));
+            let node = self.square_of(p, outer.iter().map(|c| c.0));
+            out.node.push(node);
+            out.sides.push(self.sides(p, node));
             for &l in loops {
                 out.loops.items.extend(faces.loops.row(l as usize).iter().map(|c| c.0));
                 out.loops.end_row();
@@ -278,6 +283,20 @@ impl Scene<'_> {
         }
     }
 
+    /// What is below and above a square.
+    fn sides(&self, p: &PlaneOf, node: NodeId) -> [CellId; 2] {
+        let lattice = &self.slabs.ground.lattice;
+        let mut at = lattice.node_at(node);
+        let mut side = |layer: Option<usize>| match layer.filter(|&l| l < lattice.count(p.axis)) {
+            None => CellId::NONE,
+            Some(layer) => {
+                at[p.axis] = layer;
+                if self.touched.get(at) { CellId::of(self.touched.rank(at)) } else { FULL_CELL }
+            }
+        };
+        [side((p.rank as usize).checked_sub(1)), side(Some(p.rank as usize))]
+    }
+
     /// The square that holds a loop of more than a line.
     fn square_of(&self, p: &PlaneOf, corners: impl Iterator<Item = VertexId>) -> NodeId {
         let mut low: Slabs = [u32::MAX; 3];
@@ -289,42 +308,10 @@ impl Scene<'_> {
         at[p.axis] = p.rank as usize;
         // The lowest corner is on the square's lower line or within its layer.
         for a in [p.u, p.w] {
-            at[a] = ((low[a] as usize + 1) / 2).saturating_sub(1);
+            at[a] = (low[a] as usize).div_ceil(2).saturating_sub(1);
         }
         self.slabs.ground.lattice.node_id(at)
     }
-}
-
-/// The boxes below and above a square, with what is there: a touched box (by rank), a full one, or none.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Side {
-    Touched(u32),
-    Full,
-    Outside,
-}
-
-impl Side {
-    /// What stands for a side that is no touched box.
-    pub fn cell(self) -> CellId {
-        match self {
-            Side::Full => FULL_CELL,
-            _ => CellId::NONE,
-        }
-    }
-}
-
-/// The two sides of a square by axis and lowest node.
-pub fn sides(touched: &Touched, lattice: &super::Lattice, axis: usize, node: NodeId) -> [Side; 2] {
-    let at = lattice.node_at(node);
-    let side = |layer: Option<usize>| match layer.filter(|&l| l < lattice.count(axis)) {
-        None => Side::Outside,
-        Some(layer) => {
-            let mut at = at;
-            at[axis] = layer;
-            if touched.get(at) { Side::Touched(touched.rank(at) as u32) } else { Side::Full }
-        }
-    };
-    [side(at[axis].checked_sub(1)), side(Some(at[axis]))]
 }
 
 impl Squares {
@@ -333,6 +320,7 @@ impl Squares {
         if self.face_loops.len() != self.node.len() + 1
             || *self.face_loops.last().unwrap() as usize != self.loops.len()
             || self.axis_faces[3] as usize != self.node.len()
+            || self.sides.len() != self.node.len()
         {
             return Err("faces in grid planes do not match their loops".into());
         }
