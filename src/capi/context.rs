@@ -11,6 +11,7 @@
 
 use super::guard::{Host, adopt_worker, catch, guard};
 use super::view::{address, index, into_handle, put};
+use crate::base::blocks::Keeper;
 use crate::base::{Error, Run, Status};
 use crate::exact::counters::{self, Counts, PREDICATES, Predicate, TIERS};
 use rayon::{ThreadPool, ThreadPoolBuilder};
@@ -61,6 +62,8 @@ pub struct State {
     pub strings: [CString; 3],
     /// An array of the last call.
     pub numbers: Vec<i32>,
+    /// Memory of one call is kept for the next.
+    _keeper: Keeper,
 }
 
 impl State {
@@ -79,6 +82,7 @@ impl State {
             last_counts: Counts::ZERO,
             strings: Default::default(),
             numbers: Vec::new(),
+            _keeper: Keeper::new(),
         }
     }
 
