@@ -10,7 +10,7 @@
 //! that is kept holds the address of the next one of its class in its first word. The lock is only ever tried: where
 //! another thread has it (or had it when the process forked), blocks are mapped and unmapped directly.
 //!
-//! Cost: some 20 ns for a kept block; address space is rounded up by an eighth at most, memory by a page.
+//! Cost: some 20 ns for a kept block; address space is rounded up by an eighth at most, memory by two pages.
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::Mutex;
@@ -21,8 +21,14 @@ const LARGE: usize = 1 << LARGE_BITS;
 const LARGE_BITS: u32 = 17;
 /// What is kept for later calls, in all: as much as a cut of a million triangles by hundreds of planes wants.
 const KEPT: usize = 1 << 30;
+const PAGE: usize = 4096;
+/// A cache line.
+const LINE: usize = 64;
 /// A huge page.
 const HUGE: usize = 2 << 20;
+/// Blocks do not all start at the same place of a page: loops that walk several arrays side by side would meet in the same
+/// sets of the cache. This many bytes further each time, modulo a page.
+const STAGGER: usize = 13 * LINE;
 /// Eight classes for each power of two.
 const CLASSES: usize = 8 * (64 - LARGE_BITS as usize);
 
@@ -36,6 +42,7 @@ struct Kept {
 }
 
 static KEEPERS: AtomicUsize = AtomicUsize::new(0);
+static MAPPED: AtomicUsize = AtomicUsize::new(0);
 static STORE: Mutex<Kept> = Mutex::new(Kept { first: [0; CLASSES], bytes: 0 });
 
 /// As long as one of these lives, freed blocks are kept for reuse.
@@ -66,7 +73,7 @@ impl Drop for Keeper {
 fn is_block(layout: &Layout) -> bool {
     cfg!(all(target_os = "linux", target_pointer_width = "64", not(miri)))
         && layout.size() >= LARGE
-        && layout.align() <= 4096
+        && layout.align() <= LINE
         && layout.size() < 1 << 46
 }
 
@@ -90,13 +97,13 @@ fn take(class: usize, bytes: usize) -> Option<*mut u8> {
     let mut store = STORE.try_lock().ok()?;
     let from = (class..CLASSES.min(class + 9)).find(|&c| store.first[c] != 0)?;
     let block = store.first[from] as *mut u8;
-    // SAFETY: kept blocks are mapped, page-aligned, unused by anyone else, and their first word is the next one's address.
+    // SAFETY: kept blocks are mapped, aligned to cache lines, unused by anyone else, and their first word is the next one's address.
     store.first[from] = unsafe { block.cast::<usize>().read() };
     let found = bytes_of(from);
     store.bytes -= found;
     drop(store);
     if found > bytes {
-        unmap(block.wrapping_add(bytes), found - bytes);
+        unmap(page_of(block).wrapping_add(bytes + PAGE), found - bytes);
     }
     Some(block)
 }
@@ -126,40 +133,46 @@ pub fn give_all_back() {
             let block = store.first[at] as *mut u8;
             // SAFETY: as in `take`; nobody refers to a kept block.
             store.first[at] = unsafe { block.cast::<usize>().read() };
-            unmap(block, bytes);
+            unmap(page_of(block), bytes + PAGE);
         }
     }
     store.bytes = 0;
 }
 
-/// Maps zeroed memory; null if there is none. `size` is what will be used of it.
+/// Where the mapping of a block starts.
+fn page_of(block: *mut u8) -> *mut u8 {
+    block.wrapping_sub(block as usize % PAGE)
+}
+
+/// Maps a zeroed block, somewhere in the first of its pages, one more than it needs; null if there is no memory. `size` is what
+/// will be used of it.
 fn map(bytes: usize, size: usize) -> *mut u8 {
     let slack = if size >= HUGE { HUGE } else { 0 };
+    let whole = bytes + PAGE;
     let (read_write, private) = (libc::PROT_READ | libc::PROT_WRITE, libc::MAP_PRIVATE | libc::MAP_ANONYMOUS);
     // SAFETY: a new anonymous mapping, wherever the system puts it, touches nothing else.
-    let start = unsafe { libc::mmap(std::ptr::null_mut(), bytes + slack, read_write, private, -1, 0) };
+    let start = unsafe { libc::mmap(std::ptr::null_mut(), whole + slack, read_write, private, -1, 0) };
     if start == libc::MAP_FAILED {
         return std::ptr::null_mut();
     }
-    let start = start.cast::<u8>();
-    if slack == 0 {
-        return start;
+    let mut start = start.cast::<u8>();
+    if slack != 0 {
+        let before = start.align_offset(HUGE);
+        if before > 0 {
+            unmap(start, before);
+        }
+        start = start.wrapping_add(before);
+        if slack > before {
+            unmap(start.wrapping_add(whole), slack - before);
+        }
+        // No huge page for the rest: it might hold a hundred times what is used of it.
+        #[cfg(target_os = "linux")]
+        // SAFETY: advice on our own mapping; whether it is taken does not matter.
+        unsafe {
+            libc::madvise(start.cast(), size & !(HUGE - 1), libc::MADV_HUGEPAGE);
+        }
     }
-    let before = start.align_offset(HUGE);
-    let block = start.wrapping_add(before);
-    if before > 0 {
-        unmap(start, before);
-    }
-    if slack > before {
-        unmap(block.wrapping_add(bytes), slack - before);
-    }
-    // No huge page for the rest: it might hold a hundred times what is used of it.
-    #[cfg(target_os = "linux")]
-    // SAFETY: advice on our own mapping; whether it is taken does not matter.
-    unsafe {
-        libc::madvise(block.cast(), size & !(HUGE - 1), libc::MADV_HUGEPAGE);
-    }
-    block
+    start.wrapping_add(MAPPED.fetch_add(STAGGER, Ordering::Relaxed) % PAGE)
 }
 
 fn unmap(start: *mut u8, bytes: usize) {
@@ -167,7 +180,7 @@ fn unmap(start: *mut u8, bytes: usize) {
     unsafe { libc::munmap(start.cast(), bytes) };
 }
 
-// SAFETY: blocks are mappings of their own, at least as large as asked for, aligned to pages; `is_block` and `class` depend
+// SAFETY: blocks are mappings of their own, at least as large as asked for, aligned to cache lines; `is_block` and `class` depend
 // on the layout alone, which the caller repeats when freeing. Everything else is the system allocator's.
 unsafe impl GlobalAlloc for Blocks {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
@@ -198,7 +211,7 @@ unsafe impl GlobalAlloc for Blocks {
         }
         let (class, bytes) = class(layout.size());
         if !keep(block, class, bytes) {
-            unmap(block, bytes);
+            unmap(page_of(block), bytes + PAGE);
         }
     }
 
@@ -227,7 +240,7 @@ mod tests {
     fn classes_hold_their_sizes() {
         for size in (LARGE..LARGE * 9).step_by(997).chain([LARGE, LARGE + 1, HUGE - 1, HUGE, HUGE + 1, (1 << 46) - 1]) {
             let (at, bytes) = class(size);
-            assert!(bytes >= size && bytes - size <= size / 8 && bytes % 4096 == 0, "{size}");
+            assert!(bytes >= size && bytes - size <= size / 8 && bytes % PAGE == 0, "{size}");
             assert_eq!(bytes, bytes_of(at));
             assert_eq!(class(bytes), (at, bytes));
         }

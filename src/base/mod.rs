@@ -5,6 +5,7 @@ pub mod blocks;
 pub mod csr;
 pub mod error;
 pub mod ids;
+pub mod parallel;
 pub mod run;
 pub mod union_find;
 
@@ -12,4 +13,4 @@ pub use csr::Csr;
 pub use error::{Culprit, DefectKind, Error, Result, Status};
 pub use ids::*;
 pub use run::Run;
-pub use union_find::UnionFind;
+pub use union_find::{SharedUnionFind, UnionFind};
