@@ -156,7 +156,8 @@ impl SharedUnionFind {
             let is_root = |i: &usize| self.parent[*i].load(Ordering::Relaxed) == *i as u32 && counts(*i);
             range.filter(is_root).map(|i| i as u32).collect()
         }));
-        let label: Vec<AtomicU32> = (0..n as u32).into_par_iter().with_min_len(LEAST).map(|_| AtomicU32::new(0)).collect();
+        let label: Vec<AtomicU32> =
+            (0..n as u32).into_par_iter().with_min_len(LEAST).map(|_| AtomicU32::new(0)).collect();
         let numbers = (0..roots.len()).into_par_iter().with_min_len(LEAST);
         numbers.for_each(|k| label[roots[k] as usize].store(k as u32, Ordering::Relaxed));
         let label_of = |i: usize| if counts(i) { label[self.find(i)].load(Ordering::Relaxed) } else { u32::MAX };

@@ -21,8 +21,7 @@ const LEAST: usize = 1 << 13;
 
 /// The planes of each vertex by id: the sets of all carriers one behind the other.
 fn vertex_planes(surface: &Surface, inner: &InnerPoints) -> Csr<PlaneId> {
-    let sources =
-        [&surface.classified.vertex_knives, &surface.points.knives, &surface.sub.point_knives, &inner.knives];
+    let sources = [&surface.classified.vertex_knives, &surface.points.knives, &surface.sub.point_knives, &inner.knives];
     let mut parts: Vec<(&Csr<KnifeId>, Range<usize>, u32)> = Vec::new();
     let mut base = 0;
     for source in sources {
@@ -35,9 +34,7 @@ fn vertex_planes(surface: &Surface, inner: &InnerPoints) -> Csr<PlaneId> {
         None => out.push(base),
     });
     // One set after the other; only sets of several planes can be in another order than their knives.
-    let items = |p: &(&Csr<KnifeId>, Range<usize>, u32)| {
-        p.0.offsets[p.1.start] as usize..p.0.offsets[p.1.end] as usize
-    };
+    let items = |p: &(&Csr<KnifeId>, Range<usize>, u32)| p.0.offsets[p.1.start] as usize..p.0.offsets[p.1.end] as usize;
     let id = |k: &KnifeId| surface.knives.ids[k.at()];
     let sorted = surface.knives.ids.is_sorted();
     let lengths: Vec<usize> = parts.iter().map(|p| items(p).len()).collect();
@@ -159,9 +156,7 @@ impl<'a> Faces<'a> {
         for part in &parts {
             let (faces, loops, corners) = match part {
                 Part::Whole(r) => (r.len(), r.len(), 3 * r.len()),
-                Part::Cut(r) => {
-                    (r.len(), r.len(), (sub.faces.offsets[r.end] - sub.faces.offsets[r.start]) as usize)
-                }
+                Part::Cut(r) => (r.len(), r.len(), (sub.faces.offsets[r.end] - sub.faces.offsets[r.start]) as usize),
                 Part::Section(k) => {
                     let s = &sections[*k];
                     // Loops that bound no face are in none.
@@ -169,8 +164,7 @@ impl<'a> Faces<'a> {
                     (s.faces.len(), s.faces.items.len(), corners)
                 }
             };
-            let next =
-                Place { faces: at.faces + faces, loops: at.loops + loops, corners: at.corners + corners };
+            let next = Place { faces: at.faces + faces, loops: at.loops + loops, corners: at.corners + corners };
             places.push(std::mem::replace(&mut at, next));
         }
         places.push(at);
@@ -200,68 +194,84 @@ impl<'a> Faces<'a> {
 
     fn corner_vertices(&self) -> Vec<VertexId> {
         let (mesh, faces) = (self.surface.mesh, &self.surface.sub.faces);
-        self.write(|p| p.corners, None, |part, _, out| match part {
-            Part::Whole(r) => {
-                self.whole.triangles[r.clone()].iter().for_each(|t| out.extend(mesh.triangles[t.at()]));
-            }
-            Part::Cut(r) => {
-                let corners = faces.offsets[r.start] as usize..faces.offsets[r.end] as usize;
-                out.extend(faces.items[corners].iter().map(|c| c.0));
-            }
-            Part::Section(k) => self.section_loops(*k).for_each(|l| out.extend(l.iter().map(|c| c.0))),
-        })
+        self.write(
+            |p| p.corners,
+            None,
+            |part, _, out| match part {
+                Part::Whole(r) => {
+                    self.whole.triangles[r.clone()].iter().for_each(|t| out.extend(mesh.triangles[t.at()]));
+                }
+                Part::Cut(r) => {
+                    let corners = faces.offsets[r.start] as usize..faces.offsets[r.end] as usize;
+                    out.extend(faces.items[corners].iter().map(|c| c.0));
+                }
+                Part::Section(k) => self.section_loops(*k).for_each(|l| out.extend(l.iter().map(|c| c.0))),
+            },
+        )
     }
 
     fn corner_edges(&self) -> Vec<EdgeId> {
         let (mesh, faces) = (self.surface.mesh, &self.surface.sub.faces);
         let piece = |e: EdgeId| EdgeId(edge_piece(self.surface.points, e));
-        self.write(|p| p.corners, None, |part, _, out| match part {
-            Part::Whole(r) => {
-                let edges = |t: &TriangleId| mesh.triangle_edges[t.at()].map(piece);
-                self.whole.triangles[r.clone()].iter().for_each(|t| out.extend(edges(t)));
-            }
-            Part::Cut(r) => {
-                let corners = faces.offsets[r.start] as usize..faces.offsets[r.end] as usize;
-                out.extend(faces.items[corners].iter().map(|c| c.1));
-            }
-            Part::Section(k) => self.section_loops(*k).for_each(|l| out.extend(l.iter().map(|c| c.1))),
-        })
+        self.write(
+            |p| p.corners,
+            None,
+            |part, _, out| match part {
+                Part::Whole(r) => {
+                    let edges = |t: &TriangleId| mesh.triangle_edges[t.at()].map(piece);
+                    self.whole.triangles[r.clone()].iter().for_each(|t| out.extend(edges(t)));
+                }
+                Part::Cut(r) => {
+                    let corners = faces.offsets[r.start] as usize..faces.offsets[r.end] as usize;
+                    out.extend(faces.items[corners].iter().map(|c| c.1));
+                }
+                Part::Section(k) => self.section_loops(*k).for_each(|l| out.extend(l.iter().map(|c| c.1))),
+            },
+        )
     }
 
     fn loop_offsets(&self) -> Vec<u32> {
         let faces = &self.surface.sub.faces;
         let end = self.places[self.parts.len()].corners as u32;
-        self.write(|p| p.loops, Some(end), |part, place, out| {
-            let base = place.corners as u32;
-            match part {
-                Part::Whole(r) => out.extend((0..r.len() as u32).map(|i| base + 3 * i)),
-                Part::Cut(r) => {
-                    let first = faces.offsets[r.start];
-                    out.extend(faces.offsets[r.clone()].iter().map(|o| o - first + base));
-                }
-                Part::Section(k) => {
-                    let mut at = base;
-                    for l in self.section_loops(*k) {
-                        out.push(at);
-                        at += l.len() as u32;
+        self.write(
+            |p| p.loops,
+            Some(end),
+            |part, place, out| {
+                let base = place.corners as u32;
+                match part {
+                    Part::Whole(r) => out.extend((0..r.len() as u32).map(|i| base + 3 * i)),
+                    Part::Cut(r) => {
+                        let first = faces.offsets[r.start];
+                        out.extend(faces.offsets[r.clone()].iter().map(|o| o - first + base));
+                    }
+                    Part::Section(k) => {
+                        let mut at = base;
+                        for l in self.section_loops(*k) {
+                            out.push(at);
+                            at += l.len() as u32;
+                        }
                     }
                 }
-            }
-        })
+            },
+        )
     }
 
     fn face_loops(&self) -> Vec<u32> {
         let end = self.places[self.parts.len()].loops as u32;
-        self.write(|p| p.faces, Some(end), |part, place, out| {
-            let base = place.loops as u32;
-            match part {
-                Part::Whole(r) | Part::Cut(r) => out.extend((0..r.len() as u32).map(|i| base + i)),
-                Part::Section(k) => {
-                    let faces = &self.sections[*k].faces;
-                    out.extend(faces.offsets[..faces.len()].iter().map(|o| base + o));
+        self.write(
+            |p| p.faces,
+            Some(end),
+            |part, place, out| {
+                let base = place.loops as u32;
+                match part {
+                    Part::Whole(r) | Part::Cut(r) => out.extend((0..r.len() as u32).map(|i| base + i)),
+                    Part::Section(k) => {
+                        let faces = &self.sections[*k].faces;
+                        out.extend(faces.offsets[..faces.len()].iter().map(|o| base + o));
+                    }
                 }
-            }
-        })
+            },
+        )
     }
 
     /// One value per face: of its triangle, or of its section.
@@ -270,14 +280,18 @@ impl<'a> Faces<'a> {
         triangle: impl Fn(TriangleId) -> T + Sync,
         section: impl Fn(PlaneId) -> T + Sync,
     ) -> Vec<T> {
-        self.write(|p| p.faces, None, |part, _, out| match part {
-            Part::Whole(r) => out.extend(self.whole.triangles[r.clone()].iter().map(|&t| triangle(t))),
-            Part::Cut(r) => out.extend(self.surface.sub.face_triangle[r.clone()].iter().map(|&t| triangle(t))),
-            Part::Section(k) => {
-                let value = section(self.surface.knives.ids[*k]);
-                out.extend(std::iter::repeat_n(value, self.sections[*k].faces.len()));
-            }
-        })
+        self.write(
+            |p| p.faces,
+            None,
+            |part, _, out| match part {
+                Part::Whole(r) => out.extend(self.whole.triangles[r.clone()].iter().map(|&t| triangle(t))),
+                Part::Cut(r) => out.extend(self.surface.sub.face_triangle[r.clone()].iter().map(|&t| triangle(t))),
+                Part::Section(k) => {
+                    let value = section(self.surface.knives.ids[*k]);
+                    out.extend(std::iter::repeat_n(value, self.sections[*k].faces.len()));
+                }
+            },
+        )
     }
 }
 

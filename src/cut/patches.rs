@@ -112,7 +112,7 @@ pub fn join_whole(
     });
     let mut open: Vec<u64> = open.into_iter().map(AtomicU64::into_inner).collect();
     // Chord pieces share the last word.
-    if first_chord_piece % 64 != 0
+    if !first_chord_piece.is_multiple_of(64)
         && let Some(last) = open.last_mut()
     {
         *last |= !0 << (first_chord_piece % 64);
