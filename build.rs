@@ -21,6 +21,7 @@ const SOURCES: &[&str] = &[
     "keys",
     "certify",
     "grid",
+    "grid_boxes",
     "grid_cells",
     "grid_moments",
 ];

@@ -38,6 +38,7 @@ fn main() {
     let input = MeshInput { vertices: &soup.vertices, triangles: &soup.triangles, tags: None };
     let threads = std::env::var("THREADS").ok().and_then(|t| t.parse().ok()).unwrap_or(1);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+    let _keeper = lapidary::base::blocks::Keeper::new();
     let mut best: Vec<(&'static str, f64)> = Vec::new();
     let mut total = f64::INFINITY;
     for _ in 0..repeats {

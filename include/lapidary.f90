@@ -1508,16 +1508,54 @@ module lapidary
     ! the mesh handle or the context to stay alive.
     !
     ! Errors: LAP_ERR_BAD_ARGUMENT with a message that names the node for coordinates that are not finite or do not
-    ! rise, for a block that is empty or outside the grid, and for a known node outside the block or on the surface;
-    ! LAP_ERR_INCONSISTENT for input that intersects itself; LAP_ERR_TOO_LARGE if the block has 2147483647 nodes or more
-    ! or the result more elements than 32-bit indices can number; LAP_ERR_NULL_POINTER, LAP_ERR_CANCELLED,
-    ! LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: a byte per box, else it grows with the number of cut boxes and of
-    ! triangles.
+    ! rise, for a block that is empty or outside the grid, and for a known node outside the block; LAP_ERR_INCONSISTENT
+    ! for input that intersects itself; LAP_ERR_TOO_LARGE if the block has 2147483647 nodes or more or the result more
+    ! elements than 32-bit indices can number; LAP_ERR_NULL_POINTER, LAP_ERR_CANCELLED, LAP_ERR_OUT_OF_MEMORY,
+    ! LAP_ERR_BUSY. Cost: a byte per box, else it grows with the number of cut boxes and of triangles.
     integer(c_int32_t) function lap_grid_new(context, mesh, n_x, x, n_y, y, n_z, z, options, &
       grid) bind(c, name="lap_grid_new")
       import :: c_double, c_int32_t, c_int64_t, c_ptr, lap_grid_options
       type(c_ptr), value :: context
       type(c_ptr), value :: mesh
+      integer(c_int64_t), value :: n_x
+      real(c_double), intent(in), optional :: x(*)
+      integer(c_int64_t), value :: n_y
+      real(c_double), intent(in), optional :: y(*)
+      integer(c_int64_t), value :: n_z
+      real(c_double), intent(in), optional :: z(*)
+      type(lap_grid_options), intent(in), optional :: options
+      type(c_ptr), intent(inout), optional :: grid
+    end function
+  end interface
+
+  public :: lap_grid_new_patch
+  interface
+    ! Cuts a block of a rectilinear grid along the part of a surface that is in it: for a rank that does not hold the
+    ! whole mesh.
+    !
+    ! Inputs (borrowed for the call): xyz, indices, tags: as for lap_mesh_new, of some triangles of a mesh, among them
+    ! all that meet the closed box of the block (it suffices that their bounding boxes do; more do not harm; there may
+    ! be none); triangle_ids: n_triangles ids, each from 0 up to, not including, 2^40, no two equal: the triangles'
+    ! places in the whole mesh, of which keys are made; or NULL, then they are their places here; n_x to z: the whole
+    ! grid's nodes, as for lap_grid_new; options: with the block, and one node of it that is known to be in the fluid or
+    ! not (lap_mesh_locate tells, where the whole mesh is). Blocks that share a face, cut from parts of one mesh with
+    ! the same vertex order in each triangle, give it the same key and its vertices the same coordinates, bit for bit.
+    ! grid: receives the handle, NULL after an error or cancel; free it with lap_grid_free.
+    !
+    ! Errors: LAP_ERR_BAD_MESH as for lap_mesh_new, except that edges may be open where they do not meet the closed box
+    ! of the block, and nesting is not checked: the ids of an open edge's defect are those of this call's arrays, and it
+    ! means that a triangle is missing; LAP_ERR_BAD_ARGUMENT as for lap_grid_new, if no node is known, and for ids that
+    ! are out of range or equal; others as for lap_grid_new. Cost: as lap_grid_new, and n log n in the vertices.
+    integer(c_int32_t) function lap_grid_new_patch(context, n_vertices, xyz, n_triangles, indices, tags, triangle_ids, &
+      n_x, x, n_y, y, n_z, z, options, grid) bind(c, name="lap_grid_new_patch")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr, lap_grid_options
+      type(c_ptr), value :: context
+      integer(c_int64_t), value :: n_vertices
+      real(c_double), intent(in), optional :: xyz(*)
+      integer(c_int64_t), value :: n_triangles
+      integer(c_int32_t), intent(in), optional :: indices(*)
+      integer(c_int32_t), intent(in), optional :: tags(*)
+      integer(c_int64_t), intent(in), optional :: triangle_ids(*)
       integer(c_int64_t), value :: n_x
       real(c_double), intent(in), optional :: x(*)
       integer(c_int64_t), value :: n_y
@@ -1537,6 +1575,69 @@ module lapidary
     integer(c_int32_t) function lap_grid_free(grid) bind(c, name="lap_grid_free")
       import :: c_int32_t, c_ptr
       type(c_ptr), value :: grid
+    end function
+  end interface
+
+  public :: lap_grid_complex
+  interface
+    ! The cut cells as an ordinary complex, on which all functions for lap_complex work. Its cells and its faces are
+    ! numbered as here, and so are its vertices; its planes are the block's grid planes, those across x first, then y,
+    ! then z, each by rising coordinate, with the equation x - node = 0. Its triangles are those of the mesh; where the
+    ! fluid is outside they are reversed. A face towards a full box or on the boundary of the block has a cell on one
+    ! side only, which may be the front. The volume and the Euler characteristic are those of the cut cells, not of the
+    ! solid.
+    !
+    ! complex: borrowed until the grid is freed; do not free it.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER, LAP_ERR_TOO_LARGE, LAP_ERR_INCONSISTENT. Threads: any. Cost: linear in the cut cells
+    ! and about as much memory again, at the first call, then none.
+    integer(c_int32_t) function lap_grid_complex(grid, complex) bind(c, name="lap_grid_complex")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value :: grid
+      type(c_ptr), intent(inout), optional :: complex
+    end function
+  end interface
+
+  public :: lap_grid_check
+  interface
+    ! Checks that a cut grid is consistent: indices in range, loops closed, faces between the cells that name them,
+    ! cells closed.
+    !
+    ! Errors: LAP_ERR_INCONSISTENT with a message that names the element; LAP_ERR_NULL_POINTER, LAP_ERR_OUT_OF_MEMORY,
+    ! LAP_ERR_BUSY. Cost: linear in the cut cells, and a pass over the flags.
+    integer(c_int32_t) function lap_grid_check(context, grid) bind(c, name="lap_grid_check")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value :: context
+      type(c_ptr), value :: grid
+    end function
+  end interface
+
+  public :: lap_grid_stage_count
+  interface
+    ! How many stages the making of the grid ran through.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_grid_stage_count(grid, count) bind(c, name="lap_grid_stage_count")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value :: grid
+      integer(c_int32_t), intent(inout), optional :: count
+    end function
+  end interface
+
+  public :: lap_grid_stage
+  interface
+    ! Stage i, from 0, in the order in which they ran: its name and its time in seconds.
+    !
+    ! Outputs (each may be NULL). name is borrowed until the grid is freed.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if grid is NULL, LAP_ERR_BAD_ARGUMENT if there is no such stage. Threads: any. Cost:
+    ! none.
+    integer(c_int32_t) function lap_grid_stage(grid, i, name, seconds) bind(c, name="lap_grid_stage")
+      import :: c_double, c_int32_t, c_ptr
+      type(c_ptr), value :: grid
+      integer(c_int32_t), value :: i
+      type(c_ptr), intent(inout), optional :: name
+      real(c_double), intent(inout), optional :: seconds
     end function
   end interface
 
@@ -1655,69 +1756,6 @@ module lapidary
     end function
   end interface
 
-  public :: lap_grid_complex
-  interface
-    ! The cut cells as an ordinary complex, on which all functions for lap_complex work. Its cells and its faces are
-    ! numbered as here, and so are its vertices; its planes are the block's grid planes, those across x first, then y,
-    ! then z, each by rising coordinate, with the equation x - node = 0. Its triangles are those of the mesh; where the
-    ! fluid is outside they are reversed. A face towards a full box or on the boundary of the block has a cell on one
-    ! side only, which may be the front. The volume and the Euler characteristic are those of the cut cells, not of the
-    ! solid.
-    !
-    ! complex: borrowed until the grid is freed; do not free it.
-    !
-    ! Errors: LAP_ERR_NULL_POINTER, LAP_ERR_TOO_LARGE, LAP_ERR_INCONSISTENT. Threads: any. Cost: linear in the cut cells
-    ! and about as much memory again, at the first call, then none.
-    integer(c_int32_t) function lap_grid_complex(grid, complex) bind(c, name="lap_grid_complex")
-      import :: c_int32_t, c_ptr
-      type(c_ptr), value :: grid
-      type(c_ptr), intent(inout), optional :: complex
-    end function
-  end interface
-
-  public :: lap_grid_check
-  interface
-    ! Checks that a cut grid is consistent: indices in range, loops closed, faces between the cells that name them,
-    ! cells closed.
-    !
-    ! Errors: LAP_ERR_INCONSISTENT with a message that names the element; LAP_ERR_NULL_POINTER, LAP_ERR_OUT_OF_MEMORY,
-    ! LAP_ERR_BUSY. Cost: linear in the cut cells, and a pass over the flags.
-    integer(c_int32_t) function lap_grid_check(context, grid) bind(c, name="lap_grid_check")
-      import :: c_int32_t, c_ptr
-      type(c_ptr), value :: context
-      type(c_ptr), value :: grid
-    end function
-  end interface
-
-  public :: lap_grid_stage_count
-  interface
-    ! How many stages the making of the grid ran through.
-    !
-    ! Errors: LAP_ERR_NULL_POINTER. Threads: any. Cost: none.
-    integer(c_int32_t) function lap_grid_stage_count(grid, count) bind(c, name="lap_grid_stage_count")
-      import :: c_int32_t, c_ptr
-      type(c_ptr), value :: grid
-      integer(c_int32_t), intent(inout), optional :: count
-    end function
-  end interface
-
-  public :: lap_grid_stage
-  interface
-    ! Stage i, from 0, in the order in which they ran: its name and its time in seconds.
-    !
-    ! Outputs (each may be NULL). name is borrowed until the grid is freed.
-    !
-    ! Errors: LAP_ERR_NULL_POINTER if grid is NULL, LAP_ERR_BAD_ARGUMENT if there is no such stage. Threads: any. Cost:
-    ! none.
-    integer(c_int32_t) function lap_grid_stage(grid, i, name, seconds) bind(c, name="lap_grid_stage")
-      import :: c_double, c_int32_t, c_ptr
-      type(c_ptr), value :: grid
-      integer(c_int32_t), value :: i
-      type(c_ptr), intent(inout), optional :: name
-      real(c_double), intent(inout), optional :: seconds
-    end function
-  end interface
-
   public :: lap_grid_vertices
   interface
     ! The vertices of the cut cells: each coordinate the double nearest to the exact one (ties to even, zero as +0), in
@@ -1741,7 +1779,7 @@ module lapidary
     ! The faces of the cut cells, with their holes: walls first, then faces in grid planes. A face is a set of loops,
     ! the outer loop first, then holes; seen with the face's normal up, the outer loop runs anticlockwise and holes run
     ! clockwise. A loop is a cyclic run of corners; an isolated vertex inside a face is a hole of one corner. A wall has
-    ! one loop.
+    ! one loop. Two blocks that share a face may start its loops at different corners.
     !
     ! Outputs (each may be NULL; borrowed until the grid is freed): count: the number of faces; face_loops: count + 1,
     ! face f has the loops face_loops[f] up to, not including, face_loops[f + 1]; loop_corners: number of loops + 1,

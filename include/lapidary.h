@@ -1230,7 +1230,7 @@ int32_t lap_grid_options_init(struct lap_grid_options *options,
  handle or the context to stay alive.
 
  Errors: LAP_ERR_BAD_ARGUMENT with a message that names the node for coordinates that are not finite or do not rise, for a
- block that is empty or outside the grid, and for a known node outside the block or on the surface;
+ block that is empty or outside the grid, and for a known node outside the block;
  LAP_ERR_INCONSISTENT for input that intersects itself; LAP_ERR_TOO_LARGE if the block has 2147483647 nodes or more or the
  result more elements than 32-bit indices can number; LAP_ERR_NULL_POINTER, LAP_ERR_CANCELLED, LAP_ERR_OUT_OF_MEMORY,
  LAP_ERR_BUSY. Cost: a byte per box, else it grows with the number of cut boxes and of triangles.
@@ -1247,11 +1247,88 @@ int32_t lap_grid_new(struct lap_context *context,
                      struct lap_grid **grid);
 
 /*
+ Cuts a block of a rectilinear grid along the part of a surface that is in it: for a rank that does not hold the whole mesh.
+
+ Inputs (borrowed for the call): xyz, indices, tags: as for lap_mesh_new, of some triangles of a mesh, among them all that
+ meet the closed box of the block (it suffices that their bounding boxes do; more do not harm; there may be none);
+ triangle_ids: n_triangles ids, each from 0 up to, not including, 2^40, no two equal: the triangles' places in the whole
+ mesh, of which keys are made; or NULL, then they are their places here; n_x to z: the whole grid's nodes, as for
+ lap_grid_new; options: with the block, and one node of it that is known to be in the fluid or not (lap_mesh_locate tells,
+ where the whole mesh is). Blocks that share a face, cut from parts of one mesh with the same vertex order in each
+ triangle, give it the same key and its vertices the same coordinates, bit for bit.
+ grid: receives the handle, NULL after an error or cancel; free it with lap_grid_free.
+
+ Errors: LAP_ERR_BAD_MESH as for lap_mesh_new, except that edges may be open where they do not meet the closed box of the
+ block, and nesting is not checked: the ids of an open edge's defect are those of this call's arrays, and it means
+ that a triangle is missing; LAP_ERR_BAD_ARGUMENT as for lap_grid_new, if no node is known, and for ids that are out of
+ range or equal; others as for lap_grid_new. Cost: as lap_grid_new, and n log n in the vertices.
+ */
+int32_t lap_grid_new_patch(struct lap_context *context,
+                           int64_t n_vertices,
+                           const double *xyz,
+                           int64_t n_triangles,
+                           const int32_t *indices,
+                           const int32_t *tags,
+                           const int64_t *triangle_ids,
+                           int64_t n_x,
+                           const double *x,
+                           int64_t n_y,
+                           const double *y,
+                           int64_t n_z,
+                           const double *z,
+                           const struct lap_grid_options *options,
+                           struct lap_grid **grid);
+
+/*
  Frees a grid and all that was borrowed from it, its complex included. NULL is allowed and does nothing.
 
  Errors: none.
  */
 int32_t lap_grid_free(struct lap_grid *grid);
+
+/*
+ The cut cells as an ordinary complex, on which all functions for lap_complex work. Its cells and its faces are numbered as
+ here, and so are its vertices; its planes are the block's grid planes, those across x first, then y, then z, each by rising
+ coordinate, with the equation x - node = 0. Its triangles are those of the mesh; where the fluid is outside they
+ are reversed. A face towards a full box or on the boundary of the block has a cell on one side only, which may be the front.
+ The volume and the Euler characteristic are those of the cut cells, not of the solid.
+
+ complex: borrowed until the grid is freed; do not free it.
+
+ Errors: LAP_ERR_NULL_POINTER, LAP_ERR_TOO_LARGE, LAP_ERR_INCONSISTENT. Threads: any. Cost: linear in the cut cells and
+ about as much memory again, at the first call, then none.
+ */
+int32_t lap_grid_complex(const struct lap_grid *grid,
+                         const struct lap_complex **complex);
+
+/*
+ Checks that a cut grid is consistent: indices in range, loops closed, faces between the cells that name them, cells
+ closed.
+
+ Errors: LAP_ERR_INCONSISTENT with a message that names the element; LAP_ERR_NULL_POINTER, LAP_ERR_OUT_OF_MEMORY,
+ LAP_ERR_BUSY. Cost: linear in the cut cells, and a pass over the flags.
+ */
+int32_t lap_grid_check(struct lap_context *context,
+                       const struct lap_grid *grid);
+
+/*
+ How many stages the making of the grid ran through.
+
+ Errors: LAP_ERR_NULL_POINTER. Threads: any. Cost: none.
+ */
+int32_t lap_grid_stage_count(const struct lap_grid *grid, int32_t *count);
+
+/*
+ Stage i, from 0, in the order in which they ran: its name and its time in seconds.
+
+ Outputs (each may be NULL). name is borrowed until the grid is freed.
+
+ Errors: LAP_ERR_NULL_POINTER if grid is NULL, LAP_ERR_BAD_ARGUMENT if there is no such stage. Threads: any. Cost: none.
+ */
+int32_t lap_grid_stage(const struct lap_grid *grid,
+                       int32_t i,
+                       const char **name,
+                       double *seconds);
 
 /*
  The block and the whole grid.
@@ -1342,50 +1419,6 @@ int32_t lap_grid_box(const struct lap_grid *grid,
                      int32_t *count);
 
 /*
- The cut cells as an ordinary complex, on which all functions for lap_complex work. Its cells and its faces are numbered as
- here, and so are its vertices; its planes are the block's grid planes, those across x first, then y, then z, each by rising
- coordinate, with the equation x - node = 0. Its triangles are those of the mesh; where the fluid is outside they
- are reversed. A face towards a full box or on the boundary of the block has a cell on one side only, which may be the front.
- The volume and the Euler characteristic are those of the cut cells, not of the solid.
-
- complex: borrowed until the grid is freed; do not free it.
-
- Errors: LAP_ERR_NULL_POINTER, LAP_ERR_TOO_LARGE, LAP_ERR_INCONSISTENT. Threads: any. Cost: linear in the cut cells and
- about as much memory again, at the first call, then none.
- */
-int32_t lap_grid_complex(const struct lap_grid *grid,
-                         const struct lap_complex **complex);
-
-/*
- Checks that a cut grid is consistent: indices in range, loops closed, faces between the cells that name them, cells
- closed.
-
- Errors: LAP_ERR_INCONSISTENT with a message that names the element; LAP_ERR_NULL_POINTER, LAP_ERR_OUT_OF_MEMORY,
- LAP_ERR_BUSY. Cost: linear in the cut cells, and a pass over the flags.
- */
-int32_t lap_grid_check(struct lap_context *context,
-                       const struct lap_grid *grid);
-
-/*
- How many stages the making of the grid ran through.
-
- Errors: LAP_ERR_NULL_POINTER. Threads: any. Cost: none.
- */
-int32_t lap_grid_stage_count(const struct lap_grid *grid, int32_t *count);
-
-/*
- Stage i, from 0, in the order in which they ran: its name and its time in seconds.
-
- Outputs (each may be NULL). name is borrowed until the grid is freed.
-
- Errors: LAP_ERR_NULL_POINTER if grid is NULL, LAP_ERR_BAD_ARGUMENT if there is no such stage. Threads: any. Cost: none.
- */
-int32_t lap_grid_stage(const struct lap_grid *grid,
-                       int32_t i,
-                       const char **name,
-                       double *seconds);
-
-/*
  The vertices of the cut cells: each coordinate the double nearest to the exact one (ties to even, zero as +0), in the
  units of the input. A coordinate on a grid plane is the node's, bit for bit.
 
@@ -1402,7 +1435,8 @@ int32_t lap_grid_vertices(const struct lap_grid *grid,
 /*
  The faces of the cut cells, with their holes: walls first, then faces in grid planes. A face is a set of loops, the
  outer loop first, then holes; seen with the face's normal up, the outer loop runs anticlockwise and holes run clockwise. A
- loop is a cyclic run of corners; an isolated vertex inside a face is a hole of one corner. A wall has one loop.
+ loop is a cyclic run of corners; an isolated vertex inside a face is a hole of one corner. A wall has one loop. Two blocks
+ that share a face may start its loops at different corners.
 
  Outputs (each may be NULL; borrowed until the grid is freed): count: the number of faces; face_loops: count + 1, face f has
  the loops face_loops[f] up to, not including, face_loops[f + 1]; loop_corners: number of loops + 1, loop l has the corners

@@ -7,3 +7,6 @@ pub mod cut;
 pub mod exact;
 pub mod grid;
 pub mod mesh;
+
+#[global_allocator]
+static BLOCKS: base::blocks::Blocks = base::blocks::Blocks;

@@ -14,6 +14,7 @@ use lapidary::complex::keys::{Corner, face_key, face_keys, names, vertex_key, ve
 use lapidary::complex::{Complex, GlobalIds, Key, Origin, SupportId};
 use lapidary::cut::{Cut, CutOptions, cut};
 use lapidary::exact::Plane;
+use lapidary::grid::{GridOptions, Lattice, cut_grid};
 use lapidary::mesh::{TriMesh, edges::edge_table};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -287,6 +288,41 @@ fn blocks() {
             check_block(name, &mesh, 5, block);
         }
     });
+}
+
+/// The cells of a grid's block are made by other means than a cut's: what they are made of has the same keys.
+fn check_grid(what: &str, mesh: &Arc<TriMesh>) {
+    let [low, high] = mesh.bbox;
+    let nodes: [Vec<f64>; 3] = std::array::from_fn(|a| {
+        // Planes on the bounding box and through vertices.
+        let mut nodes: Vec<f64> = mesh.vertices.iter().step_by(mesh.vertices.len() / 5 + 1).map(|x| x[a]).collect();
+        nodes.extend([low[a], high[a], low[a] + 0.3 * (high[a] - low[a])]);
+        nodes.sort_by(f64::total_cmp);
+        nodes.dedup();
+        nodes
+    });
+    let n = [&nodes[0][..], &nodes[1][..], &nodes[2][..]];
+    let lattice = Lattice::new(n, [0; 3], [0, 1, 2].map(|a| nodes[a].len() as i64 - 1)).unwrap();
+    let grid = cut_grid(mesh, lattice, &GridOptions::default(), &mut Run::quiet()).unwrap();
+    let general = cut(mesh, &grid.planes, &CutOptions::default(), &mut Run::quiet()).unwrap().complex;
+    let known = told(what, &general, &GlobalIds::default());
+    let (of_vertex, of_face) = lapidary::grid::keys(&grid, None).unwrap();
+    for (v, key) in of_vertex.iter().enumerate() {
+        assert_eq!(known.vertices.get(key), Some(&grid.coords[v].map(f64::to_bits)), "{what}: vertex {v}");
+    }
+    let own = lapidary::grid::to_complex(&grid);
+    for (f, key) in of_face.iter().enumerate() {
+        let edges = face_edges(&own, FaceId::of(f), &of_vertex);
+        assert!(known.faces.get(key) == Some(&edges), "{what}: face {f}");
+    }
+}
+
+#[test]
+fn grids() {
+    for case in small_cases() {
+        check_grid(&case.name, &Arc::new(common::build_soup(&case.soup, Default::default()).unwrap()));
+    }
+    each_model(3000, |name, _, mesh| check_grid(name, &mesh));
 }
 
 /// The layout of keys is part of the interface: ranks may run different builds.

@@ -186,7 +186,7 @@ static void structure(const lap_grid *grid, int64_t n_triangles, const int32_t *
     CHECK(count == n_walls && in_range(wall_cells, count, 0, n_cells));
     CHECK(count == 0 || (tags != NULL) == (triangle_tags != NULL));
     for (i = 0; i < count; ++i) {
-        CHECK(triangles[i] >= 0 && triangles[i] < n_triangles && (i == 0 || triangles[i - 1] <= triangles[i]));
+        CHECK(triangles[i] >= 0 && triangles[i] < n_triangles);
         if (tags != NULL) CHECK(tags[i] == triangle_tags[triangles[i]]);
     }
     STATUS(LAP_OK, lap_grid_plane_faces(grid, &first, &count, &axes, &square, &sides));
@@ -373,7 +373,7 @@ static int64_t faces_of_block(const lap_grid *whole, const lap_grid *block)
     const int64_t *a = NULL, *b = NULL, *va = NULL, *vb = NULL;
     const double *xa = NULL, *xb = NULL;
     const int32_t *la = NULL, *ca = NULL, *ia = NULL, *lb = NULL, *cb = NULL, *ib = NULL;
-    int64_t na = 0, nb = 0, f, g, k, found = 0;
+    int64_t na = 0, nb = 0, f, g, k, turn, size, found = 0;
     STATUS(LAP_OK, lap_grid_face_keys(whole, &na, &a));
     STATUS(LAP_OK, lap_grid_face_keys(block, &nb, &b));
     STATUS(LAP_OK, lap_grid_vertex_keys(whole, NULL, &va));
@@ -388,9 +388,16 @@ static int64_t faces_of_block(const lap_grid *whole, const lap_grid *block)
         CHECK(f < na);
         if (f == na) continue;
         ++found;
-        CHECK(la[f + 1] - la[f] == lb[g + 1] - lb[g] && ca[la[f + 1]] - ca[la[f]] == cb[lb[g + 1]] - cb[lb[g]]);
-        for (k = 0; k < cb[lb[g + 1]] - cb[lb[g]]; ++k) {
-            const int32_t v = ia[ca[la[f]] + k], w = ib[cb[lb[g]] + k];
+        /* One loop each, which may start anywhere. */
+        CHECK(la[f + 1] - la[f] == 1 && lb[g + 1] - lb[g] == 1);
+        size = ca[la[f + 1]] - ca[la[f]];
+        CHECK(size == cb[lb[g + 1]] - cb[lb[g]]);
+        for (turn = 0; turn < size; ++turn) {
+            if (memcmp(va + 2 * ia[ca[la[f]] + turn], vb + 2 * ib[cb[lb[g]]], 2 * sizeof *va) == 0) break;
+        }
+        CHECK(turn < size);
+        for (k = 0; k < size; ++k) {
+            const int32_t v = ia[ca[la[f]] + (turn + k) % size], w = ib[cb[lb[g]] + k];
             CHECK(memcmp(va + 2 * v, vb + 2 * w, 2 * sizeof *va) == 0);
             CHECK(memcmp(xa + 3 * v, xb + 3 * w, 3 * sizeof *xa) == 0);
         }
@@ -452,6 +459,94 @@ static void known_solid(lap_context *context, const lap_mesh *mesh, const int32_
     as_complex(context, grid);
     distinct_keys(grid);
     STATUS(LAP_OK, lap_grid_free(grid));
+}
+
+/* A block cut from the part of the cube that meets its box is that block cut from the whole cube. */
+static void patches(lap_context *context, const lap_mesh *mesh)
+{
+    int64_t ids[12], wild[12];
+    int32_t few[36];
+    const int64_t *a = NULL, *b = NULL;
+    const double *va = NULL, *vb = NULL;
+    const int32_t *ta = NULL, *tb = NULL;
+    int64_t n = 0, m = 0, i;
+    lap_grid_options o;
+    lap_grid *whole = NULL, *patch = (lap_grid *)&patch;
+
+    STATUS(LAP_OK, lap_grid_options_init(&o, (int32_t)sizeof o));
+    o.block_low[0] = 2;
+    STATUS_IN(context, LAP_OK, make(context, mesh, &o, &whole));
+    /* Without the two triangles on x = 0, which the block's boxes do not meet; in another order. */
+    for (i = 0; i < 10; ++i) {
+        memcpy(few + 3 * i, cube_indices + 3 * (9 - i), 3 * sizeof *few);
+        ids[i] = 9 - i;
+    }
+#define PATCH(count, of_ids, options) \
+    lap_grid_new_patch(context, 8, cube_xyz, (count), few, NULL, (of_ids), 4, xs, 4, ys, 3, zs, (options), &patch)
+    STATUS(LAP_ERR_BAD_ARGUMENT, PATCH(10, ids, &o));
+    CHECK(patch == NULL && has_message(context));
+    STATUS(LAP_ERR_BAD_ARGUMENT, PATCH(10, ids, NULL));
+    o.known = LAP_NODE_SOLID;
+    o.known_node[0] = 3;
+    STATUS_IN(context, LAP_OK, PATCH(10, ids, &o));
+    if (patch == NULL) return;
+    structure(patch, 12, NULL);
+    moments(patch, 5);
+    STATUS(LAP_OK, lap_grid_cell_moments(whole, &n, &va, NULL, NULL, NULL));
+    STATUS(LAP_OK, lap_grid_cell_moments(patch, &m, &vb, NULL, NULL, NULL));
+    CHECK(n == m && memcmp(va, vb, (size_t)n * sizeof *va) == 0);
+    STATUS(LAP_OK, lap_grid_face_keys(whole, &n, NULL));
+    STATUS(LAP_OK, lap_grid_face_keys(patch, &m, NULL));
+    CHECK(n == m && faces_of_block(whole, patch) == n);
+    /* Walls by their ids in the whole mesh. */
+    STATUS(LAP_OK, lap_grid_walls(whole, &n, &a, &ta, NULL));
+    STATUS(LAP_OK, lap_grid_walls(patch, &m, &b, &tb, NULL));
+    CHECK(n == m && ta != NULL && tb == NULL);
+    for (i = m = 0; i < n; ++i) m += a[i] - b[i];
+    CHECK(m == 0);
+    STATUS(LAP_OK, lap_grid_free(patch));
+
+    /* Without ids: places in the arrays. */
+    STATUS_IN(context, LAP_OK, PATCH(10, NULL, &o));
+    STATUS(LAP_OK, lap_grid_walls(patch, &m, &b, NULL, NULL));
+    for (i = 0; i < m; ++i) CHECK(b[i] >= 0 && b[i] < 10 && (i == 0 || b[i - 1] <= b[i]));
+    STATUS(LAP_OK, lap_grid_free(patch));
+
+    /* Ids that are not; a triangle on x = 2 that is missing; arrays that are. */
+    memcpy(wild, ids, sizeof wild);
+    wild[3] = wild[5];
+    STATUS(LAP_ERR_BAD_ARGUMENT, PATCH(10, wild, &o));
+    CHECK(patch == NULL && has_message(context));
+    wild[3] = INT64_C(1) << 40;
+    STATUS(LAP_ERR_BAD_ARGUMENT, PATCH(10, wild, &o));
+    wild[3] = -1;
+    STATUS(LAP_ERR_BAD_ARGUMENT, PATCH(10, wild, &o));
+    for (i = 0; i < 10 && few[3 * i] + few[3 * i + 1] + few[3 * i + 2] != 9; ++i) {
+    }
+    CHECK(i < 10); /* 1, 2, 6 lies on x = 2 */
+    memcpy(few + 3 * i, few + 3 * 9, 3 * sizeof *few);
+    STATUS(LAP_ERR_BAD_MESH, PATCH(9, NULL, &o));
+    CHECK(patch == NULL && has_defect(context, LAP_DEFECT_OPEN_EDGE, -2, -2, -2));
+    STATUS(LAP_ERR_NULL_POINTER, lap_grid_new_patch(context, 8, NULL, 9, few, NULL, NULL, 4, xs, 4, ys, 3, zs, &o, &patch));
+    STATUS(LAP_ERR_NULL_POINTER, lap_grid_new_patch(context, 8, cube_xyz, 9, NULL, NULL, NULL, 4, xs, 4, ys, 3, zs, &o, &patch));
+    STATUS(LAP_ERR_NULL_POINTER, lap_grid_new_patch(context, 8, cube_xyz, 9, few, NULL, NULL, 4, NULL, 4, ys, 3, zs, &o, &patch));
+    STATUS(LAP_ERR_NULL_POINTER, lap_grid_new_patch(context, 8, cube_xyz, 9, few, NULL, NULL, 4, xs, 4, ys, 3, zs, &o, NULL));
+    STATUS(LAP_ERR_NULL_POINTER, lap_grid_new_patch(NULL, 8, cube_xyz, 9, few, NULL, NULL, 4, xs, 4, ys, 3, zs, &o, &patch));
+
+    /* No triangles at all: what is known of one node holds for all boxes. */
+    o.block_low[0] = o.known_node[0] = 0;
+    o.block_high[0] = 1;
+    STATUS_IN(context, LAP_OK, PATCH(0, NULL, &o));
+    STATUS(LAP_OK, lap_grid_counts(patch, &n, &m, NULL, NULL, NULL, NULL, NULL));
+    CHECK(n == 6 && m == 0);
+    STATUS(LAP_OK, lap_grid_free(patch));
+    o.known = LAP_NODE_FLUID;
+    STATUS_IN(context, LAP_OK, PATCH(0, NULL, &o));
+    STATUS(LAP_OK, lap_grid_counts(patch, &n, &m, NULL, NULL, NULL, NULL, NULL));
+    CHECK(n == 0 && m == 6);
+    STATUS(LAP_OK, lap_grid_free(patch));
+    STATUS(LAP_OK, lap_grid_free(whole));
+#undef PATCH
 }
 
 /* Full boxes, and a box in two parts: a cube with a void, in a grid of 4 across each axis that a plate of fluid crosses. */
@@ -594,6 +689,7 @@ void test_grid(void)
     bad_nodes(context, mesh);
     known_solid(context, mesh, cube_tags);
     hollow(context);
+    patches(context, mesh);
     STATUS(LAP_OK, lap_grid_options_init(&o, (int32_t)sizeof o));
     o.block_low[0] = 1;
     STATUS_IN(context, LAP_OK, make(context, mesh, &o, &grid));

@@ -72,7 +72,7 @@ program test_fortran
   call ok(lap_mesh_new(context, 8_c_int64_t, cube, 12_c_int64_t, triangles, tags, mesh=mesh), "lap_mesh_new")
   call mesh_views()
   call cut_views()
-  call grid()
+  call boxes()
   call errors()
   call callbacks()
   call ok(lap_mesh_free(mesh), "lap_mesh_free")
@@ -210,13 +210,36 @@ contains
     w = [u(2) * v(3) - u(3) * v(2), u(3) * v(1) - u(1) * v(3), u(1) * v(2) - u(2) * v(1)]
   end function
 
-  ! Options with arrays in them.
-  subroutine grid()
+  ! Fluid outside the cube: of 27 boxes the middle one is empty, the others are cut.
+  subroutine boxes()
+    real(c_double), parameter :: nodes(4) = [-1d0, 0.5d0, 1.5d0, 3d0]
     type(lap_grid_options) :: options
+    type(c_ptr) :: grid, a, b
+    integer(c_int64_t) :: empty, full, cells, count
+    integer(c_int8_t), pointer :: flags(:, :, :)
+    real(c_double), pointer :: volumes(:), fractions(:)
+    grid = c_null_ptr
+    a = c_null_ptr
+    b = c_null_ptr
     call ok(lap_grid_options_init(options, int(c_sizeof(options), c_int32_t)), "lap_grid_options_init")
     call check(options%struct_size == c_sizeof(options), "the size of the grid's options")
     call check(all(options%block_low == 0) .and. all(options%block_high == -1), "default block")
     call check(options%known == LAP_NODE_UNKNOWN, "no known node")
+    options%outside = 1
+    call ok(lap_grid_new(context, mesh, 4_c_int64_t, nodes, 4_c_int64_t, nodes, 4_c_int64_t, nodes, options, grid), &
+      "lap_grid_new")
+    call ok(lap_grid_counts(grid, empty=empty, full=full, cells=cells), "lap_grid_counts")
+    call check(empty == 1 .and. full == 0 .and. cells == 26, "counts of boxes and cells")
+    call ok(lap_grid_flags(grid, count, a), "lap_grid_flags")
+    call check(count == 27, "a flag per box")
+    call c_f_pointer(a, flags, [3, 3, 3])
+    call check(flags(2, 2, 2) == LAP_BOX_EMPTY .and. flags(1, 2, 3) == LAP_BOX_CUT, "flags by i, j, k")
+    call ok(lap_grid_cell_moments(grid, count, a, b), "lap_grid_cell_moments")
+    call lap_view(a, count, volumes)
+    call lap_view(b, count, fractions)
+    call check(count == 26 .and. sum(volumes) == 64 - 8, "the volume around the cube")
+    call check(all(fractions > 0 .and. fractions < 1), "fractions")
+    call ok(lap_grid_free(grid), "lap_grid_free")
   end subroutine
 
   subroutine errors()

@@ -1,9 +1,11 @@
 //! The ground under the floors: typed ids, flat CSR arrays, errors with named culprits, and the run control
 //! (progress, cancel, log) that every engine takes.
 
+pub mod blocks;
 pub mod csr;
 pub mod error;
 pub mod ids;
+pub mod parallel;
 pub mod run;
 pub mod union_find;
 
@@ -11,4 +13,4 @@ pub use csr::Csr;
 pub use error::{Culprit, DefectKind, Error, Result, Status};
 pub use ids::*;
 pub use run::Run;
-pub use union_find::UnionFind;
+pub use union_find::{SharedUnionFind, UnionFind};

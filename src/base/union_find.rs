@@ -2,6 +2,10 @@
 //! outcome is independent of the order of the unions. Cost: amortised O(log n) per operation, nearly constant in
 //! practice (linking by index in place of rank costs no memory).
 
+use super::parallel::{concat, map_ranges};
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicU32, Ordering};
+
 /// Disjoint sets of positions.
 #[derive(Clone, Debug)]
 pub struct UnionFind {
@@ -62,6 +66,106 @@ impl UnionFind {
     }
 }
 
+/// Disjoint sets of positions that several threads join at once. Links lead from higher to lower positions only, so the root of a set
+/// is its lowest member in the end, whatever the order of the unions.
+///
+/// Relaxed atomics suffice: a place that is not a root only ever comes to hold another of its ancestors, and a root is linked
+/// by compare-and-swap. On one thread there are no locked instructions.
+#[derive(Debug)]
+pub struct SharedUnionFind {
+    parent: Vec<AtomicU32>,
+    alone: bool,
+}
+
+impl SharedUnionFind {
+    /// `n` sets of one member each, for the threads of the current rayon pool.
+    pub fn new(n: usize) -> Self {
+        let parent = (0..n as u32).into_par_iter().with_min_len(1 << 14).map(AtomicU32::new).collect();
+        Self { parent, alone: rayon::current_num_threads() == 1 }
+    }
+
+    /// A member of the set that holds `i`, the lowest one once all unions are done.
+    #[inline]
+    pub fn find(&self, i: usize) -> usize {
+        let parent = &self.parent[..];
+        let mut i = i as u32;
+        loop {
+            let up = parent[i as usize].load(Ordering::Relaxed);
+            if up == i {
+                return i as usize;
+            }
+            let next = parent[up as usize].load(Ordering::Relaxed);
+            if next == up {
+                return up as usize;
+            }
+            parent[i as usize].store(next, Ordering::Relaxed);
+            i = next;
+        }
+    }
+
+    #[inline]
+    pub fn union(&self, a: usize, b: usize) {
+        // Nearly always they are together already, under one root.
+        if self.parent[a].load(Ordering::Relaxed) != self.parent[b].load(Ordering::Relaxed) {
+            self.join(a, b);
+        }
+    }
+
+    fn join(&self, a: usize, b: usize) {
+        let (mut a, mut b) = (a, b);
+        loop {
+            (a, b) = (self.find(a), self.find(b));
+            if a == b {
+                return;
+            }
+            let (low, high) = (a.min(b) as u32, a.max(b) as u32);
+            let root = &self.parent[high as usize];
+            if self.alone {
+                root.store(low, Ordering::Relaxed);
+                return;
+            }
+            if root.compare_exchange(high, low, Ordering::Relaxed, Ordering::Relaxed).is_ok() {
+                return;
+            }
+        }
+    }
+
+    /// When all unions are done: the set of each position, numbered by lowest member, and these lowest members. Positions that
+    /// `counts` does not admit (they are in no set with another) get `u32::MAX` and no number.
+    pub fn labels(&self, counts: impl Fn(usize) -> bool + Sync) -> (Vec<u32>, Vec<u32>) {
+        const LEAST: usize = 1 << 14;
+        let n = self.parent.len();
+        if self.alone {
+            // Parents never exceed their children.
+            let (mut of, mut roots): (Vec<u32>, Vec<u32>) = (Vec::with_capacity(n), Vec::new());
+            for (i, up) in self.parent.iter().enumerate() {
+                let up = up.load(Ordering::Relaxed) as usize;
+                of.push(if up != i {
+                    of[up]
+                } else if counts(i) {
+                    roots.push(i as u32);
+                    roots.len() as u32 - 1
+                } else {
+                    u32::MAX
+                });
+            }
+            return (of, roots);
+        }
+        // The roots by rising position, then each position's place among them.
+        let roots = concat(map_ranges(n, LEAST, |range| {
+            let is_root = |i: &usize| self.parent[*i].load(Ordering::Relaxed) == *i as u32 && counts(*i);
+            range.filter(is_root).map(|i| i as u32).collect()
+        }));
+        let label: Vec<AtomicU32> =
+            (0..n as u32).into_par_iter().with_min_len(LEAST).map(|_| AtomicU32::new(0)).collect();
+        let numbers = (0..roots.len()).into_par_iter().with_min_len(LEAST);
+        numbers.for_each(|k| label[roots[k] as usize].store(k as u32, Ordering::Relaxed));
+        let label_of = |i: usize| if counts(i) { label[self.find(i)].load(Ordering::Relaxed) } else { u32::MAX };
+        let of = (0..n).into_par_iter().with_min_len(LEAST).map(label_of).collect();
+        (of, roots)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -75,5 +179,23 @@ mod tests {
         assert!(sets.union(1, 3));
         assert_eq!((0..7).map(|i| sets.find(i)).collect::<Vec<_>>(), [0, 1, 2, 1, 4, 2, 2]);
         assert_eq!(sets.labels(), (vec![0, 1, 2, 1, 3, 2, 2], 4));
+    }
+
+    #[test]
+    fn shared_sets_agree_with_those_of_one_thread() {
+        let n = 100_000;
+        let pairs: Vec<[usize; 2]> = (0..n).map(|i| [i, (i * 7919 + 13) % n]).filter(|p| p[0] % 3 != 0).collect();
+        let mut sets = UnionFind::new(n);
+        for p in &pairs {
+            sets.union(p[0], p[1]);
+        }
+        for threads in [1, 3] {
+            rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(|| {
+                let shared = SharedUnionFind::new(n);
+                pairs.par_iter().for_each(|p| shared.union(p[0], p[1]));
+                let (of, roots) = shared.labels(|_| true);
+                assert_eq!((of, roots.len()), sets.labels());
+            });
+        }
     }
 }

@@ -11,9 +11,11 @@
 
 use super::guard::{Host, adopt_worker, catch, guard};
 use super::view::{address, index, into_handle, put};
+use crate::base::blocks::Keeper;
 use crate::base::{Error, Run, Status};
 use crate::exact::counters::{self, Counts, PREDICATES, Predicate, TIERS};
 use rayon::{ThreadPool, ThreadPoolBuilder};
+use std::any::Any;
 use std::cell::UnsafeCell;
 use std::ffi::{CString, c_char, c_void};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -59,8 +61,10 @@ pub struct State {
     pub last_counts: Counts,
     /// Exact strings of the last call.
     pub strings: [CString; 3],
-    /// An array of the last call.
-    pub numbers: Vec<i32>,
+    /// What the last call handed out views of.
+    held: Option<Box<dyn Any + Send>>,
+    /// Memory of one call is kept for the next.
+    _keeper: Keeper,
 }
 
 impl State {
@@ -78,7 +82,8 @@ impl State {
             counts: Counts::ZERO,
             last_counts: Counts::ZERO,
             strings: Default::default(),
-            numbers: Vec::new(),
+            held: None,
+            _keeper: Keeper::new(),
         }
     }
 
@@ -94,6 +99,13 @@ impl State {
         self.message = c_string(&error.message);
         self.defect_kinds.extend(error.culprits.iter().map(|c| c.kind as i32));
         self.defect_ids.extend(error.culprits.iter().map(|c| c.ids));
+    }
+
+    /// Keeps what a call hands out views of, until the next call that does.
+    pub fn hold<T: Send + 'static>(&mut self, value: T) -> &T {
+        self.held = None;
+        let held = self.held.insert(Box::new(value));
+        held.downcast_ref().expect("what was just put there")
     }
 
     /// How many threads a handle made now may use for what it computes on demand.

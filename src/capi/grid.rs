@@ -1,18 +1,20 @@
-//! The noun `lap_grid`, first part: making one, and what the block's boxes are. `grid_cells` has the polyhedra, `grid_moments`
-//! the arrays of embedded-boundary solvers, `grid_fluid` what connects cells and full boxes.
+//! The noun `lap_grid`, first part: making one. `grid_boxes` has what the block's boxes are, `grid_cells` the polyhedra,
+//! `grid_moments` the arrays of embedded-boundary solvers, `grid_fluid` what connects cells and full boxes.
 
 use super::complex::lap_complex;
 use super::context::{State, c_string, lap_context, with_context};
 use super::derived::on_demand;
+use super::grid_boxes::{Boxes, Shape};
 use super::grid_cells::Views;
 use super::grid_moments::Arrays;
 use super::guard::{Host, guard};
 use super::keys::Keyed;
-use super::mesh::{bad_options, lap_mesh};
-use super::view::{address, handle, index, input, into_handle, put, read_options, write_options};
+use super::mesh::{Arrays as MeshArrays, bad_options, lap_mesh};
+use super::view::{handle, index, input, into_handle, put, read_options, write_options};
 use crate::base::{Error, PlaneId, Run, Status};
+use crate::complex::keys::check_ids;
 use crate::grid::{self, CUT, EMPTY, FULL, GridCells, GridOptions, Lattice};
-use crate::mesh::TriMesh;
+use crate::mesh::{self, MeshInput, MeshOptions, TriMesh};
 use std::ffi::{CString, c_char};
 use std::sync::{Arc, OnceLock};
 
@@ -64,21 +66,12 @@ pub struct lap_grid {
     pub threads: usize,
     /// Global ids of the mesh's triangles; `None`: positions.
     pub triangle_ids: Option<Arc<[i64]>>,
-    shape: Shape,
+    pub shape: Shape,
     stages: Vec<(CString, f64)>,
-    /// Empty, full and cut boxes.
-    tally: OnceLock<[i64; 3]>,
-    box_offsets: OnceLock<Vec<u32>>,
     complex: OnceLock<Result<lap_complex, Status>>,
+    pub boxes: Boxes,
     pub views: Views,
     pub arrays: Arrays,
-}
-
-/// The block in the whole grid, as C reads it.
-struct Shape {
-    boxes: [i64; 3],
-    first: [i64; 3],
-    total: [i64; 3],
 }
 
 impl lap_grid {
@@ -95,20 +88,13 @@ impl lap_grid {
         if longest.iter().any(|&n| n > i32::MAX as usize) {
             return Err(Error::new(Status::TooLarge, "the result has more elements than 32-bit indices can number"));
         }
-        let lattice = &data.lattice;
-        let shape = Shape {
-            boxes: std::array::from_fn(|a| lattice.count(a) as i64),
-            first: lattice.first,
-            total: lattice.total.map(|nodes| nodes - 1),
-        };
         Ok(Self {
+            shape: Shape::of(&data.lattice),
             data,
             threads,
             triangle_ids: None,
-            shape,
             stages: stages.iter().map(|(name, seconds)| (c_string(name), *seconds)).collect(),
-            tally: OnceLock::new(),
-            box_offsets: OnceLock::new(),
+            boxes: Boxes::default(),
             complex: OnceLock::new(),
             views: Views::default(),
             arrays: Arrays::default(),
@@ -174,7 +160,7 @@ pub unsafe extern "C" fn lap_grid_options_init(options: *mut lap_grid_options, s
 /// handle or the context to stay alive.
 ///
 /// Errors: LAP_ERR_BAD_ARGUMENT with a message that names the node for coordinates that are not finite or do not rise, for a
-/// block that is empty or outside the grid, and for a known node outside the block or on the surface;
+/// block that is empty or outside the grid, and for a known node outside the block;
 /// LAP_ERR_INCONSISTENT for input that intersects itself; LAP_ERR_TOO_LARGE if the block has 2147483647 nodes or more or the
 /// result more elements than 32-bit indices can number; LAP_ERR_NULL_POINTER, LAP_ERR_CANCELLED, LAP_ERR_OUT_OF_MEMORY,
 /// LAP_ERR_BUSY. Cost: a byte per box, else it grows with the number of cut boxes and of triangles.
@@ -200,6 +186,67 @@ pub unsafe extern "C" fn lap_grid_new(
         let order = unsafe { Order::read([n_x, n_y, n_z], [x, y, z], options)? };
         let mut made = make(state, host, order, |_| Ok(mesh.mesh.clone()))?;
         made.triangle_ids = mesh.triangle_ids.clone();
+        unsafe { put(grid, into_handle(made)) };
+        Ok(())
+    })
+}
+
+/// Cuts a block of a rectilinear grid along the part of a surface that is in it: for a rank that does not hold the whole mesh.
+///
+/// Inputs (borrowed for the call): xyz, indices, tags: as for lap_mesh_new, of some triangles of a mesh, among them all that
+/// meet the closed box of the block (it suffices that their bounding boxes do; more do not harm; there may be none);
+/// triangle_ids: n_triangles ids, each from 0 up to, not including, 2^40, no two equal: the triangles' places in the whole
+/// mesh, of which keys are made; or NULL, then they are their places here; n_x to z: the whole grid's nodes, as for
+/// lap_grid_new; options: with the block, and one node of it that is known to be in the fluid or not (lap_mesh_locate tells,
+/// where the whole mesh is). Blocks that share a face, cut from parts of one mesh with the same vertex order in each
+/// triangle, give it the same key and its vertices the same coordinates, bit for bit.
+/// grid: receives the handle, NULL after an error or cancel; free it with lap_grid_free.
+///
+/// Errors: LAP_ERR_BAD_MESH as for lap_mesh_new, except that edges may be open where they do not meet the closed box of the
+/// block, and nesting is not checked: the ids of an open edge's defect are those of this call's arrays, and it means
+/// that a triangle is missing; LAP_ERR_BAD_ARGUMENT as for lap_grid_new, if no node is known, and for ids that are out of
+/// range or equal; others as for lap_grid_new. Cost: as lap_grid_new, and n log n in the vertices.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn lap_grid_new_patch(
+    context: *mut lap_context,
+    n_vertices: i64,
+    xyz: *const f64,
+    n_triangles: i64,
+    indices: *const i32,
+    tags: *const i32,
+    triangle_ids: *const i64,
+    n_x: i64,
+    x: *const f64,
+    n_y: i64,
+    y: *const f64,
+    n_z: i64,
+    z: *const f64,
+    options: *const lap_grid_options,
+    grid: *mut *mut lap_grid,
+) -> i32 {
+    with_context(context, |state, host| {
+        if grid.is_null() {
+            return Err(Error::new(Status::NullPointer, "grid is NULL"));
+        }
+        unsafe { put(grid, std::ptr::null_mut()) };
+        let arrays = unsafe { MeshArrays::borrow(n_vertices, xyz, n_triangles, indices, tags, std::ptr::null())? };
+        let ids = if triangle_ids.is_null() {
+            None
+        } else {
+            Some(unsafe { input(triangle_ids, n_triangles) }.map_err(|s| Error::new(s, "triangle_ids"))?)
+        };
+        let order = unsafe { Order::read([n_x, n_y, n_z], [x, y, z], options)? };
+        if order.options.known.is_none() {
+            return Err(Error::new(Status::BadArgument, "known: of a patch one node has to be known"));
+        }
+        let mut made = make(state, host, order, |run| {
+            if let Some(ids) = ids {
+                check_ids(ids, arrays.triangles.len(), "triangle")?;
+            }
+            let input = MeshInput { vertices: arrays.vertices, triangles: arrays.triangles, tags: arrays.tags };
+            mesh::build_patch(&input, &MeshOptions::default(), run).map(Arc::new)
+        })?;
+        made.triangle_ids = ids.map(Arc::from);
         unsafe { put(grid, into_handle(made)) };
         Ok(())
     })
@@ -258,10 +305,10 @@ fn make(
     state: &mut State,
     host: &mut Host,
     order: Order,
-    mesh: impl FnOnce(&mut Run) -> Result<Arc<TriMesh>, Error> + Send,
+    build: impl FnOnce(&mut Run) -> Result<Arc<TriMesh>, Error> + Send,
 ) -> Result<lap_grid, Error> {
     let (data, stages) = state.run(host, |run| {
-        let mesh = mesh(run)?;
+        let mesh = build(run)?;
         let data = grid::cut_grid(&mesh, order.lattice, &order.options, run)?;
         if order.check {
             data.check().map_err(Error::inconsistent)?;
@@ -279,181 +326,6 @@ pub unsafe extern "C" fn lap_grid_free(grid: *mut lap_grid) -> i32 {
     guard(|_| {
         if !grid.is_null() {
             drop(unsafe { Box::from_raw(grid) });
-        }
-        Ok(())
-    })
-}
-
-/// The block and the whole grid.
-///
-/// Outputs (each may be NULL; borrowed until the grid is freed): boxes: 3 numbers, the boxes of the block along x, y, z; first:
-/// 3 numbers, the indices of the block's first box in the whole grid; total: 3 numbers, the boxes of the whole grid;
-/// x, y, z: boxes[0] + 1, boxes[1] + 1, boxes[2] + 1 coordinates of the block's nodes, as given (-0 as 0).
-///
-/// Errors: LAP_ERR_NULL_POINTER if grid is NULL. Threads: any. Cost: none.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn lap_grid_block(
-    grid: *const lap_grid,
-    boxes: *mut *const i64,
-    first: *mut *const i64,
-    total: *mut *const i64,
-    x: *mut *const f64,
-    y: *mut *const f64,
-    z: *mut *const f64,
-) -> i32 {
-    guard(|_| {
-        let grid = unsafe { handle(grid) }?;
-        let nodes = &grid.data.lattice.nodes;
-        unsafe {
-            put(boxes, address(&grid.shape.boxes));
-            put(first, address(&grid.shape.first));
-            put(total, address(&grid.shape.total));
-            put(x, address(&nodes[0]));
-            put(y, address(&nodes[1]));
-            put(z, address(&nodes[2]));
-        }
-        Ok(())
-    })
-}
-
-/// How many boxes there are of each kind, and how many elements the cut boxes have: cells; faces, of which the first so many
-/// are walls; vertices.
-///
-/// Outputs: each may be NULL. Errors: LAP_ERR_NULL_POINTER if grid is NULL. Threads: any. Cost: one pass over the flags
-/// at the first call, then none.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn lap_grid_counts(
-    grid: *const lap_grid,
-    empty: *mut i64,
-    full: *mut i64,
-    cut: *mut i64,
-    cells: *mut i64,
-    faces: *mut i64,
-    walls: *mut i64,
-    vertices: *mut i64,
-) -> i32 {
-    guard(|_| {
-        let grid = unsafe { handle(grid) }?;
-        let tally = grid.tally.get_or_init(|| tally(&grid.data));
-        unsafe {
-            put(empty, tally[EMPTY as usize]);
-            put(full, tally[FULL as usize]);
-            put(cut, tally[CUT as usize]);
-            put(cells, grid.data.cell_count() as i64);
-            put(faces, grid.data.face_count() as i64);
-            put(walls, grid.data.wall_count() as i64);
-            put(vertices, grid.data.coords.len() as i64);
-        }
-        Ok(())
-    })
-}
-
-fn tally(g: &GridCells) -> [i64; 3] {
-    let full = g.flags.iter().filter(|&&flag| flag == FULL).count();
-    let cut = g.cut_boxes.len();
-    [g.flags.len() - full - cut, full, cut].map(|n| n as i64)
-}
-
-/// What each box is: LAP_BOX_EMPTY, LAP_BOX_FULL or LAP_BOX_CUT.
-///
-/// Outputs (each may be NULL; borrowed until the grid is freed): count: the number of boxes of the block; flags: count, box
-/// (i, j, k) at i + nx (j + ny k).
-///
-/// Errors: LAP_ERR_NULL_POINTER if grid is NULL. Threads: any. Cost: none.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn lap_grid_flags(grid: *const lap_grid, count: *mut i64, flags: *mut *const u8) -> i32 {
-    guard(|_| {
-        let g = &unsafe { handle(grid) }?.data;
-        unsafe {
-            put(count, g.flags.len() as i64);
-            put(flags, address(&g.flags));
-        }
-        Ok(())
-    })
-}
-
-/// The boxes that are cut, and their cells.
-///
-/// Outputs (each may be NULL; borrowed until the grid is freed): count: the number of cut boxes; boxes: count numbers of
-/// boxes, rising; box_cells: count + 1: box boxes[i] has the cells box_cells[i] up to, not including, box_cells[i + 1].
-///
-/// Errors: LAP_ERR_NULL_POINTER if grid is NULL. Threads: any. Cost: none.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn lap_grid_cut_boxes(
-    grid: *const lap_grid,
-    count: *mut i64,
-    boxes: *mut *const i32,
-    box_cells: *mut *const i32,
-) -> i32 {
-    guard(|_| {
-        let g = &unsafe { handle(grid) }?.data;
-        unsafe {
-            put(count, g.cut_boxes.len() as i64);
-            put(boxes, address(&g.cut_boxes));
-            put(box_cells, address(&g.box_cells));
-        }
-        Ok(())
-    })
-}
-
-/// From every box to its cells, for those who have the memory: as lap_grid_cut_boxes, but for all boxes.
-///
-/// Outputs (each may be NULL; borrowed until the grid is freed): count: the number of boxes; offsets: count + 1: box b has the
-/// cells offsets[b] up to, not including, offsets[b + 1]; none unless it is cut.
-///
-/// Errors: LAP_ERR_NULL_POINTER if grid is NULL. Threads: any. Cost: 4 bytes per box and a pass over them at the first
-/// call, then none.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn lap_grid_box_cells(grid: *const lap_grid, count: *mut i64, offsets: *mut *const i32) -> i32 {
-    guard(|_| {
-        let grid = unsafe { handle(grid) }?;
-        let all = on_demand(grid.threads, &grid.box_offsets, || box_offsets(&grid.data))?;
-        unsafe {
-            put(count, all.len() as i64 - 1);
-            put(offsets, address(all));
-        }
-        Ok(())
-    })
-}
-
-fn box_offsets(g: &GridCells) -> Vec<u32> {
-    let mut offsets = Vec::with_capacity(g.flags.len() + 1);
-    for (i, b) in g.cut_boxes.iter().enumerate() {
-        offsets.resize(b.at() + 1, g.box_cells[i]);
-    }
-    offsets.resize(g.flags.len() + 1, g.cell_count() as u32);
-    offsets
-}
-
-/// One box of the block: what it is, and its cells.
-///
-/// i, j, k: the box, from the block's low corner. Outputs (each may be NULL): flag: LAP_BOX_*; first: its first cell, 0
-/// unless it is cut; count: the number of its cells, 0 unless it is cut.
-///
-/// Errors: LAP_ERR_NULL_POINTER if grid is NULL, LAP_ERR_BAD_ARGUMENT for a box outside the block. Threads: any. Cost: a
-/// binary search.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn lap_grid_box(
-    grid: *const lap_grid,
-    i: i32,
-    j: i32,
-    k: i32,
-    flag: *mut i32,
-    first: *mut i32,
-    count: *mut i32,
-) -> i32 {
-    guard(|_| {
-        let g = &unsafe { handle(grid) }?.data;
-        let mut at = [0; 3];
-        for (a, i) in [i, j, k].into_iter().enumerate() {
-            at[a] = index(i, g.lattice.count(a))?;
-        }
-        let b = g.lattice.box_id(at);
-        let cells = g.cells_of(b);
-        unsafe {
-            put(flag, g.flags[b.at()].into());
-            put(first, cells.start as i32);
-            put(count, cells.len() as i32);
         }
         Ok(())
     })

@@ -1,4 +1,4 @@
-//! The noun `lap_grid`, second part: the polyhedra of the cut boxes, as borrowed views.
+//! The noun `lap_grid`, third part: the polyhedra of the cut boxes, as borrowed views.
 
 use super::derived::on_demand;
 use super::grid::lap_grid;
@@ -49,7 +49,8 @@ pub unsafe extern "C" fn lap_grid_vertices(
 
 /// The faces of the cut cells, with their holes: walls first, then faces in grid planes. A face is a set of loops, the
 /// outer loop first, then holes; seen with the face's normal up, the outer loop runs anticlockwise and holes run clockwise. A
-/// loop is a cyclic run of corners; an isolated vertex inside a face is a hole of one corner. A wall has one loop.
+/// loop is a cyclic run of corners; an isolated vertex inside a face is a hole of one corner. A wall has one loop. Two blocks
+/// that share a face may start its loops at different corners.
 ///
 /// Outputs (each may be NULL; borrowed until the grid is freed): count: the number of faces; face_loops: count + 1, face f has
 /// the loops face_loops[f] up to, not including, face_loops[f + 1]; loop_corners: number of loops + 1, loop l has the corners

@@ -1,4 +1,4 @@
-//! The noun `lap_grid`, third part: the arrays of embedded-boundary solvers, computed on demand, once.
+//! The noun `lap_grid`, fourth part: the arrays of embedded-boundary solvers, computed on demand, once.
 
 use super::derived::on_demand;
 use super::grid::lap_grid;

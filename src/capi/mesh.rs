@@ -134,17 +134,17 @@ pub unsafe extern "C" fn lap_mesh_validate(
 }
 
 /// The borrowed input of a mesh.
-struct Arrays<'a> {
-    vertices: &'a [[f64; 3]],
-    triangles: &'a [[i32; 3]],
-    tags: Option<&'a [i32]>,
+pub struct Arrays<'a> {
+    pub vertices: &'a [[f64; 3]],
+    pub triangles: &'a [[i32; 3]],
+    pub tags: Option<&'a [i32]>,
     options: lap_mesh_options,
 }
 
 impl Arrays<'_> {
     /// # Safety
     /// The pointers are null or as `lap_mesh_new` says.
-    unsafe fn borrow(
+    pub unsafe fn borrow(
         n_vertices: i64,
         xyz: *const f64,
         n_triangles: i64,
@@ -380,7 +380,7 @@ pub unsafe extern "C" fn lap_mesh_locate(
         if let Some(i) = points.iter().flatten().position(|x| !x.is_finite()) {
             return Err(Error::new(Status::BadArgument, format!("point {} is not finite", i / 3)));
         }
-        state.numbers = state.run(host, |_| {
+        let found: Vec<i32> = state.run(host, |_| {
             let bvh = mesh.bvh.get_or_init(|| build_bvh(&mesh.mesh.vertices, &mesh.mesh.triangles));
             let place = |x| match locate(&mesh.mesh, bvh, x) {
                 Place::Outside => LAP_PLACE_OUTSIDE,
@@ -389,7 +389,7 @@ pub unsafe extern "C" fn lap_mesh_locate(
             };
             Ok(points.par_iter().map(place).collect())
         })?;
-        unsafe { put(places, address(&state.numbers)) };
+        unsafe { put(places, address(state.hold(found))) };
         Ok(())
     })
 }

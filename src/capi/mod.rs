@@ -18,6 +18,7 @@ pub mod cut;
 pub mod derived;
 mod fpenv;
 pub mod grid;
+pub mod grid_boxes;
 pub mod grid_cells;
 pub mod grid_moments;
 mod guard;

@@ -12,7 +12,7 @@ use crate::exact::Sign;
 use std::cmp::Ordering;
 
 /// Exact comparisons of the subdivision's vertices, in the projection in which it is seen.
-pub trait PlanarPoints {
+pub trait PlanarPoints: Sync {
     /// Orders two vertices by height (the projection's second axis).
     fn compare_height(&self, a: VertexId, b: VertexId) -> Ordering;
     /// Sign of the turn a → b → c.

@@ -68,18 +68,6 @@ impl EdgeUses {
         uses
     }
 
-    /// The two faces of an edge that has two uses, both by surface faces: the one wedge there needs no more.
-    #[inline]
-    pub fn surface_pair(&self, c: &Complex, edge: EdgeId) -> Option<[FaceId; 2]> {
-        let last = *self.last.get(edge.at())? as usize;
-        let before = *self.before.get(last)? as usize;
-        if *self.before.get(before)? != u32::MAX {
-            return None;
-        }
-        let faces = [self.corner_face[before], self.corner_face[last]];
-        faces.iter().all(|f| matches!(c.face_support[f.at()], SupportId::Triangle(_))).then_some(faces)
-    }
-
     /// All uses of an edge, by rising corner.
     pub fn row(&self, c: &Complex, edge: EdgeId, row: &mut Vec<FaceUse>) {
         row.clear();

@@ -4,12 +4,19 @@
 //! boundary of a cell, unless the engine says that it is the wall of a void and names a half-face of the shell around it;
 //! a chain of such answers ends at an outer shell. Cells are numbered by their outer shells, and voids follow in shell order.
 //!
-//! Cost: linear in the face corners, times the inverse Ackermann function.
+//! Edges around which an engine has joined the half-faces already are passed over ([`Joined`]): those of the uncut surface, nearly all of
+//! them on fine input.
+//!
+//! Cost: linear in the face corners, times the inverse Ackermann function; all of it shared out among threads.
 
-use super::radial::{EdgeUses, wedge_pairs};
+use super::radial::{FaceUse, wedge_pairs};
 use super::{Complex, HalfFace, SupportId};
-use crate::base::{CellId, Csr, EdgeId, Error, FaceId, PlaneId, Result, ShellId, UnionFind};
+use crate::base::csr::Walk;
+use crate::base::parallel::map_ranges;
+use crate::base::{CellId, Csr, EdgeId, Error, FaceId, PlaneId, Result, SharedUnionFind, ShellId};
 use crate::exact::counters;
+use rayon::prelude::*;
+use std::ops::Range;
 
 /// The shell of each half-face (`NONE` for the front of a surface face), and the lowest half-face of each shell.
 pub struct Shells {
@@ -17,41 +24,149 @@ pub struct Shells {
     pub lowest: Vec<HalfFace>,
 }
 
-/// `along(edge)`, asked at most once per edge, by rising id, may name two planes P, Q along whose n_P × n_Q the edge runs.
-pub fn find_shells(c: &Complex, mut along: impl FnMut(EdgeId) -> Option<[PlaneId; 2]>) -> Result<Shells> {
-    let uses = EdgeUses::new(c);
-    let mut classes = UnionFind::new(2 * c.face_count());
-    let (mut row, mut scratch, mut simple) = (Vec::new(), Vec::new(), 0);
-    for edge in (0..c.edge_count()).map(EdgeId::of) {
-        if let Some([a, b]) = uses.surface_pair(c, edge) {
-            classes.union(HalfFace::new(a, false).at(), HalfFace::new(b, false).at());
-            simple += 1;
-            continue;
-        }
-        uses.row(c, edge, &mut row);
-        wedge_pairs(c, edge, &row, along(edge), &mut scratch, |_, a, _, b| {
-            classes.union(a.at(), b.at());
-        })?;
+/// What an engine has joined already, and what it has left.
+pub struct Joined {
+    /// Classes of half-faces.
+    pub classes: SharedUnionFind,
+    /// Faces before this one use only edges that are settled, besides those of `uses`.
+    pub first_face: usize,
+    /// Their other uses of edges: the half-face on the counter-clockwise side.
+    pub uses: Vec<(EdgeId, HalfFace)>,
+    /// One bit for each edge of a first few: it is not settled. All later edges are not.
+    pub open: Vec<u64>,
+}
+
+impl Joined {
+    pub fn nothing(c: &Complex) -> Self {
+        let classes = SharedUnionFind::new(2 * c.face_count());
+        Self { classes, first_face: 0, uses: Vec::new(), open: Vec::new() }
     }
-    counters::count_many(counters::Predicate::RadialOrder, counters::Tier::Topology, simple);
-    let mut shells = Shells { of: vec![ShellId::NONE; 2 * c.face_count()], lowest: Vec::new() };
-    for f in 0..c.face_count() {
-        let one_sided = matches!(c.face_support[f], SupportId::Triangle(_));
-        for front in [false, true] {
-            if front && one_sided {
-                continue;
-            }
-            let h = HalfFace::new(FaceId::of(f), front);
-            let root = classes.find(h.at());
-            // Roots are the lowest members, so a class is met first at its root.
-            if shells.of[root].is_none() {
-                shells.of[root] = ShellId::of(shells.lowest.len());
-                shells.lowest.push(h);
-            }
-            shells.of[h.at()] = shells.of[root];
+}
+
+/// The edges that are not settled, numbered without gaps.
+struct OpenEdges<'a> {
+    words: &'a [u64],
+    /// How many bits are set before each word, and in all.
+    before: Vec<u32>,
+}
+
+impl<'a> OpenEdges<'a> {
+    fn new(words: &'a [u64]) -> Self {
+        let mut sum = 0;
+        let mut before = Vec::with_capacity(words.len() + 1);
+        before.push(0);
+        before.extend(words.iter().map(|w| {
+            sum += w.count_ones();
+            sum
+        }));
+        Self { words, before }
+    }
+    /// Number of places in bit words, and how many of them are open.
+    fn low(&self) -> (usize, usize) {
+        (64 * self.words.len(), self.before[self.words.len()] as usize)
+    }
+    fn count(&self, edge_count: usize) -> usize {
+        let (places, open) = self.low();
+        open + edge_count.saturating_sub(places)
+    }
+    #[inline(always)]
+    fn number(&self, edge: EdgeId) -> usize {
+        let (word, bit) = (edge.at() / 64, edge.at() % 64);
+        match self.words.get(word) {
+            Some(bits) => (self.before[word] + (bits & ((1 << bit) - 1)).count_ones()) as usize,
+            None => edge.at() - 64 * self.words.len() + self.before[self.words.len()] as usize,
         }
     }
-    Ok(shells)
+    /// The open edges with numbers in a range, rising.
+    fn in_range(&self, range: Range<usize>) -> impl Iterator<Item = EdgeId> {
+        let (places, open) = self.low();
+        let low = range.start.min(open)..range.end.min(open);
+        let word = self.before.partition_point(|&n| n as usize <= low.start) - 1;
+        let bits = (word..self.words.len()).flat_map(|w| {
+            let mut bits = self.words[w];
+            std::iter::from_fn(move || {
+                let bit = bits.trailing_zeros() as usize;
+                bits &= bits.wrapping_sub(1);
+                (bit < 64).then(|| EdgeId::of(64 * w + bit))
+            })
+        });
+        let skip = low.start - self.before[word] as usize;
+        let high = range.start.max(open)..range.end.max(open);
+        bits.skip(skip).take(low.len()).chain(high.map(move |n| EdgeId::of(n - open + places)))
+    }
+}
+
+/// The uses of open edges, by number of the edge: the half-face on the counter-clockwise side of each.
+struct OpenUses<'a> {
+    c: &'a Complex,
+    joined: &'a Joined,
+    open: &'a OpenEdges<'a>,
+}
+
+impl Walk<HalfFace> for OpenUses<'_> {
+    #[inline]
+    fn walk(&self, mut visit: impl FnMut(usize, HalfFace)) {
+        for &(edge, h) in &self.joined.uses {
+            visit(self.open.number(edge), h);
+        }
+        let c = self.c;
+        let first = self.joined.first_face;
+        let mut k = c.loop_offsets[c.face_loops[first] as usize] as usize;
+        for f in (first..c.face_count()).map(FaceId::of) {
+            let end = c.face_corners(f).end;
+            for (&v, &edge) in c.corner_vertices[k..end].iter().zip(&c.corner_edges[k..end]) {
+                if edge.is_some() {
+                    visit(self.open.number(edge), HalfFace::new(f, c.edges[edge.at()][0] == v));
+                }
+            }
+            k = end;
+        }
+    }
+}
+
+/// Elements in one task at least.
+const LEAST: usize = 1 << 13;
+
+/// `along()` makes a function that may name two planes P, Q along whose n_P × n_Q an edge runs; it is asked at most once per
+/// edge, by rising id.
+pub fn find_shells<F>(c: &Complex, joined: &Joined, along: impl Fn() -> F + Sync) -> Result<Shells>
+where
+    F: FnMut(EdgeId) -> Option<[PlaneId; 2]>,
+{
+    let classes = &joined.classes;
+    let open = OpenEdges::new(&joined.open);
+    let row_count = open.count(c.edge_count());
+    let uses = Csr::from_walk(row_count, &OpenUses { c, joined, open: &open });
+    let on_surface = |h: HalfFace| matches!(c.face_support[h.face().at()], SupportId::Triangle(_));
+    let outcomes = map_ranges(row_count, LEAST, |range| {
+        let (mut row, mut scratch, mut simple) = (Vec::new(), Vec::new(), 0);
+        let mut along = along();
+        for (n, edge) in range.clone().zip(open.in_range(range)) {
+            match *uses.row(n) {
+                [] => {}
+                [a, b] if on_surface(a) && on_surface(b) => {
+                    classes.union(HalfFace::new(a.face(), false).at(), HalfFace::new(b.face(), false).at());
+                    simple += 1;
+                }
+                ref all => {
+                    row.clear();
+                    let face_use = |h: &HalfFace| FaceUse { face: h.face(), forward: h.front(), corner: u32::MAX };
+                    row.extend(all.iter().map(face_use));
+                    wedge_pairs(c, edge, &row, along(edge), &mut scratch, |_, a, _, b| {
+                        classes.union(a.at(), b.at());
+                    })?;
+                }
+            }
+        }
+        counters::count_many(counters::Predicate::RadialOrder, counters::Tier::Topology, simple);
+        Ok(())
+    });
+    // The first error by edge, whichever thread was faster.
+    outcomes.into_iter().collect::<Result<()>>()?;
+    let outside = |h: usize| h & 1 != 0 && on_surface(HalfFace(h as u32));
+    let (of, lowest) = classes.labels(|h| !outside(h));
+    let of = of.into_iter().map(ShellId).collect();
+    Ok(Shells { of, lowest: lowest.into_iter().map(HalfFace).collect() })
 }
 
 /// Fills the cells of a complex from its shells. `host(shell)` is `None` for an outer shell and, for the wall of a void, a half-face of the
@@ -86,12 +201,10 @@ pub fn form_cells(c: &mut Complex, shells: &Shells, host: &[Option<HalfFace>]) -
     let half_faces = shells.of.iter().enumerate().filter(|(_, s)| s.is_some());
     c.shell_faces = Csr::from_pairs(count, half_faces.map(|(h, s)| (place[s.at()] as usize, HalfFace(h as u32))));
     c.cell_shells = by_cell.offsets;
-    c.face_cells = (0..c.face_count())
-        .map(|f| {
-            [2 * f, 2 * f + 1].map(|h| if shells.of[h].is_none() { CellId::NONE } else { cell_of[shells.of[h].at()] })
-        })
-        .collect();
-    match c.face_cells.iter().position(|[a, b]| a == b) {
+    let cell = |s: ShellId| if s.is_none() { CellId::NONE } else { cell_of[s.at()] };
+    c.face_cells = shells.of.par_chunks_exact(2).with_min_len(LEAST).map(|of| [cell(of[0]), cell(of[1])]).collect();
+    let same = |range: Range<usize>| range.into_iter().find(|&f| c.face_cells[f][0] == c.face_cells[f][1]);
+    match map_ranges(c.face_count(), LEAST, same).into_iter().flatten().next() {
         None => Ok(()),
         Some(f) => {
             Err(Error::inconsistent(format!("face {f} has the same cell on both sides: the surface intersects itself")))

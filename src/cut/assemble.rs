@@ -6,72 +6,102 @@
 use super::classify::KnifeId;
 use super::faces::SectionFaces;
 use super::lines::{InnerPoints, Lines};
+use super::patches::Whole;
 use super::surface::Surface;
 use super::triangles::edge_piece;
+use crate::base::parallel::{Writer, ranges, write_parts};
 use crate::base::{Csr, EdgeId, PlaneId, TriangleId, VertexId};
 use crate::complex::{Complex, SupportId};
 use crate::mesh::TriMesh;
+use std::ops::Range;
 use std::sync::Arc;
 
-/// The planes of each vertex by id.
+/// Elements in one task at least.
+const LEAST: usize = 1 << 13;
+
+/// The planes of each vertex by id: the sets of all carriers one behind the other.
 fn vertex_planes(surface: &Surface, inner: &InnerPoints) -> Csr<PlaneId> {
-    let count = surface.origins.len();
-    let mut rows = Csr::with_capacity(count + inner.names.len(), count / 2);
-    let mut push = |set: &[KnifeId]| {
-        let start = rows.items.len();
-        rows.items.extend(set.iter().map(|k| surface.knives.ids[k.at()]));
-        rows.items[start..].sort_unstable();
-        rows.end_row();
-    };
-    (0..count).for_each(|v| push(surface.set(VertexId::of(v))));
-    inner.knives.rows().for_each(&mut push);
-    rows
+    let sources = [&surface.classified.vertex_knives, &surface.points.knives, &surface.sub.point_knives, &inner.knives];
+    let mut parts: Vec<(&Csr<KnifeId>, Range<usize>, u32)> = Vec::new();
+    let mut base = 0;
+    for source in sources {
+        parts.extend(ranges(source.len(), LEAST).into_iter().map(|range| (source, range, base)));
+        base += source.items.len() as u32;
+    }
+    let lengths: Vec<usize> = parts.iter().map(|p| p.1.len()).chain([1]).collect();
+    let offsets = write_parts(&lengths, |i, out| match parts.get(i) {
+        Some((source, range, base)) => out.extend(source.offsets[range.clone()].iter().map(|o| o + base)),
+        None => out.push(base),
+    });
+    // One set after the other; only sets of several planes can be in another order than their knives.
+    let items = |p: &(&Csr<KnifeId>, Range<usize>, u32)| p.0.offsets[p.1.start] as usize..p.0.offsets[p.1.end] as usize;
+    let id = |k: &KnifeId| surface.knives.ids[k.at()];
+    let sorted = surface.knives.ids.is_sorted();
+    let lengths: Vec<usize> = parts.iter().map(|p| items(p).len()).collect();
+    let items = write_parts(&lengths, |i, out| {
+        let (source, range, _) = &parts[i];
+        if sorted {
+            return out.extend(source.items[items(&parts[i])].iter().map(id));
+        }
+        let mut set = Vec::new();
+        for row in range.clone().map(|r| source.row(r)).filter(|row| !row.is_empty()) {
+            if let [k] = row {
+                out.push(id(k));
+                continue;
+            }
+            set.clear();
+            set.extend(row.iter().map(id));
+            set.sort_unstable();
+            out.extend(set.iter().copied());
+        }
+    });
+    Csr { offsets, items }
 }
 
 /// Pieces of mesh edges, chords and lines, in this order.
 fn edges(surface: &Surface, lines: &Lines) -> Vec<[VertexId; 2]> {
-    let (mesh, points) = (surface.mesh, surface.points);
-    let line_pieces = lines.ends.len() + lines.points.items.len();
-    let mut edges = Vec::with_capacity(mesh.edges.len() + points.edge.len() + surface.sub.pieces.len() + line_pieces);
-    for (e, &[a, b]) in mesh.edges.iter().enumerate() {
-        let mut from = a;
-        for i in points.first[e]..points.first[e + 1] {
-            let v = VertexId(surface.numbering.first_edge_point + i);
-            edges.push([from, v]);
-            from = v;
+    let (mesh, points, pieces) = (surface.mesh, surface.points, &surface.sub.pieces);
+    enum Part {
+        Mesh(Range<usize>),
+        Chords(Range<usize>),
+        Lines(Range<usize>),
+    }
+    let of = |count: usize| ranges(count, LEAST).into_iter();
+    let parts: Vec<Part> = of(mesh.edges.len())
+        .map(Part::Mesh)
+        .chain(of(pieces.len()).map(Part::Chords))
+        .chain(of(lines.ends.len()).map(Part::Lines))
+        .collect();
+    let length = |part: &Part| match part {
+        Part::Mesh(r) => r.len() + (points.first[r.end] - points.first[r.start]) as usize,
+        Part::Chords(r) => r.len(),
+        Part::Lines(r) => r.len() + (lines.points.offsets[r.end] - lines.points.offsets[r.start]) as usize,
+    };
+    let lengths: Vec<usize> = parts.iter().map(length).collect();
+    write_parts(&lengths, |i, out| match &parts[i] {
+        Part::Mesh(range) => {
+            for e in range.clone() {
+                let [mut from, to] = mesh.edges[e];
+                for i in points.first[e]..points.first[e + 1] {
+                    let v = VertexId(surface.numbering.first_edge_point + i);
+                    out.push([from, v]);
+                    from = v;
+                }
+                out.push([from, to]);
+            }
         }
-        edges.push([from, b]);
-    }
-    edges.extend_from_slice(&surface.sub.pieces);
-    for (s, &[from, to]) in lines.ends.iter().enumerate() {
-        let mut from = from;
-        for &v in lines.points.row(s) {
-            edges.push([from, v]);
-            from = v;
+        Part::Chords(range) => out.extend(pieces[range.clone()].iter().copied()),
+        Part::Lines(range) => {
+            for s in range.clone() {
+                let [mut from, to] = lines.ends[s];
+                for &v in lines.points.row(s) {
+                    out.push([from, v]);
+                    from = v;
+                }
+                out.push([from, to]);
+            }
         }
-        edges.push([from, to]);
-    }
-    edges
-}
-
-struct FaceWriter<'a> {
-    c: &'a mut Complex,
-}
-
-impl FaceWriter<'_> {
-    fn corner(&mut self, v: VertexId, e: EdgeId) {
-        self.c.corner_vertices.push(v);
-        self.c.corner_edges.push(e);
-    }
-    fn end_loop(&mut self) {
-        self.c.loop_offsets.push(self.c.corner_vertices.len() as u32);
-    }
-    fn end_face(&mut self, support: SupportId, plane: PlaneId, tag: i32) {
-        self.c.face_loops.push(self.c.loop_offsets.len() as u32 - 1);
-        self.c.face_support.push(support);
-        self.c.face_plane.push(plane);
-        self.c.face_tag.push(tag);
-    }
+    })
 }
 
 /// The lowest plane that holds a whole triangle.
@@ -84,69 +114,220 @@ fn plane_of_triangle(surface: &Surface, t: TriangleId) -> PlaneId {
     common.map(|k| surface.knives.ids[k.at()]).min().unwrap_or(PlaneId::NONE)
 }
 
+/// Some consecutive faces.
+enum Part {
+    /// Uncut triangles, by place among them.
+    Whole(Range<usize>),
+    /// Faces of cut triangles.
+    Cut(Range<usize>),
+    /// The faces of a section.
+    Section(usize),
+}
+
+/// Where a part's faces start in the complex, and how many they are.
+struct Place {
+    faces: usize,
+    loops: usize,
+    corners: usize,
+}
+
+/// The faces and their corners, array by array; see [`assemble`].
+struct Faces<'a> {
+    surface: &'a Surface<'a>,
+    whole: &'a Whole,
+    sections: &'a [SectionFaces],
+    parts: Vec<Part>,
+    /// Of each part, and at last the ends.
+    places: Vec<Place>,
+}
+
+impl<'a> Faces<'a> {
+    /// Sections come in the order of `order`.
+    fn new(surface: &'a Surface<'a>, whole: &'a Whole, sections: &'a [SectionFaces], order: &[usize]) -> Self {
+        let sub = surface.sub;
+        let of = |count: usize| ranges(count, LEAST).into_iter();
+        let parts: Vec<Part> = of(whole.triangles.len())
+            .map(Part::Whole)
+            .chain(of(sub.faces.len()).map(Part::Cut))
+            .chain(order.iter().copied().map(Part::Section))
+            .collect();
+        let mut at = Place { faces: 0, loops: 0, corners: 0 };
+        let mut places = Vec::with_capacity(parts.len() + 1);
+        for part in &parts {
+            let (faces, loops, corners) = match part {
+                Part::Whole(r) => (r.len(), r.len(), 3 * r.len()),
+                Part::Cut(r) => (r.len(), r.len(), (sub.faces.offsets[r.end] - sub.faces.offsets[r.start]) as usize),
+                Part::Section(k) => {
+                    let s = &sections[*k];
+                    // Loops that bound no face are in none.
+                    let corners = s.faces.items.iter().map(|&l| s.loops.row(l as usize).len()).sum();
+                    (s.faces.len(), s.faces.items.len(), corners)
+                }
+            };
+            let next = Place { faces: at.faces + faces, loops: at.loops + loops, corners: at.corners + corners };
+            places.push(std::mem::replace(&mut at, next));
+        }
+        places.push(at);
+        Self { surface, whole, sections, parts, places }
+    }
+
+    /// An array with as many elements per part as the differences of `count`, plus one at the end if given.
+    fn write<T: Copy + Send + Sync>(
+        &self,
+        count: impl Fn(&Place) -> usize,
+        last: Option<T>,
+        write: impl Fn(&Part, &Place, &mut Writer<T>) + Sync,
+    ) -> Vec<T> {
+        let lengths = self.places.windows(2).map(|w| count(&w[1]) - count(&w[0]));
+        let lengths: Vec<usize> = lengths.chain(last.map(|_| 1)).collect();
+        write_parts(&lengths, |i, out| match (self.parts.get(i), last) {
+            (Some(part), _) => write(part, &self.places[i], out),
+            (None, Some(last)) => out.push(last),
+            (None, None) => {}
+        })
+    }
+
+    fn section_loops(&self, k: usize) -> impl Iterator<Item = &[(VertexId, EdgeId)]> {
+        let section = &self.sections[k];
+        section.faces.items.iter().map(|&l| section.loops.row(l as usize))
+    }
+
+    fn corner_vertices(&self) -> Vec<VertexId> {
+        let (mesh, faces) = (self.surface.mesh, &self.surface.sub.faces);
+        self.write(
+            |p| p.corners,
+            None,
+            |part, _, out| match part {
+                Part::Whole(r) => {
+                    self.whole.triangles[r.clone()].iter().for_each(|t| out.extend(mesh.triangles[t.at()]));
+                }
+                Part::Cut(r) => {
+                    let corners = faces.offsets[r.start] as usize..faces.offsets[r.end] as usize;
+                    out.extend(faces.items[corners].iter().map(|c| c.0));
+                }
+                Part::Section(k) => self.section_loops(*k).for_each(|l| out.extend(l.iter().map(|c| c.0))),
+            },
+        )
+    }
+
+    fn corner_edges(&self) -> Vec<EdgeId> {
+        let (mesh, faces) = (self.surface.mesh, &self.surface.sub.faces);
+        let piece = |e: EdgeId| EdgeId(edge_piece(self.surface.points, e));
+        self.write(
+            |p| p.corners,
+            None,
+            |part, _, out| match part {
+                Part::Whole(r) => {
+                    let edges = |t: &TriangleId| mesh.triangle_edges[t.at()].map(piece);
+                    self.whole.triangles[r.clone()].iter().for_each(|t| out.extend(edges(t)));
+                }
+                Part::Cut(r) => {
+                    let corners = faces.offsets[r.start] as usize..faces.offsets[r.end] as usize;
+                    out.extend(faces.items[corners].iter().map(|c| c.1));
+                }
+                Part::Section(k) => self.section_loops(*k).for_each(|l| out.extend(l.iter().map(|c| c.1))),
+            },
+        )
+    }
+
+    fn loop_offsets(&self) -> Vec<u32> {
+        let faces = &self.surface.sub.faces;
+        let end = self.places[self.parts.len()].corners as u32;
+        self.write(
+            |p| p.loops,
+            Some(end),
+            |part, place, out| {
+                let base = place.corners as u32;
+                match part {
+                    Part::Whole(r) => out.extend((0..r.len() as u32).map(|i| base + 3 * i)),
+                    Part::Cut(r) => {
+                        let first = faces.offsets[r.start];
+                        out.extend(faces.offsets[r.clone()].iter().map(|o| o - first + base));
+                    }
+                    Part::Section(k) => {
+                        let mut at = base;
+                        for l in self.section_loops(*k) {
+                            out.push(at);
+                            at += l.len() as u32;
+                        }
+                    }
+                }
+            },
+        )
+    }
+
+    fn face_loops(&self) -> Vec<u32> {
+        let end = self.places[self.parts.len()].loops as u32;
+        self.write(
+            |p| p.faces,
+            Some(end),
+            |part, place, out| {
+                let base = place.loops as u32;
+                match part {
+                    Part::Whole(r) | Part::Cut(r) => out.extend((0..r.len() as u32).map(|i| base + i)),
+                    Part::Section(k) => {
+                        let faces = &self.sections[*k].faces;
+                        out.extend(faces.offsets[..faces.len()].iter().map(|o| base + o));
+                    }
+                }
+            },
+        )
+    }
+
+    /// One value per face: of its triangle, or of its section.
+    fn of_faces<T: Copy + Send + Sync>(
+        &self,
+        triangle: impl Fn(TriangleId) -> T + Sync,
+        section: impl Fn(PlaneId) -> T + Sync,
+    ) -> Vec<T> {
+        self.write(
+            |p| p.faces,
+            None,
+            |part, _, out| match part {
+                Part::Whole(r) => out.extend(self.whole.triangles[r.clone()].iter().map(|&t| triangle(t))),
+                Part::Cut(r) => out.extend(self.surface.sub.face_triangle[r.clone()].iter().map(|&t| triangle(t))),
+                Part::Section(k) => {
+                    let value = section(self.surface.knives.ids[*k]);
+                    out.extend(std::iter::repeat_n(value, self.sections[*k].faces.len()));
+                }
+            },
+        )
+    }
+}
+
 /// A complex without cells and without the vertices' origins and coordinates yet (they are still read, and are
 /// moved in at the end), and the first face id of each section.
 pub fn assemble(
     mesh: &Arc<TriMesh>,
     surface: &Surface,
+    whole: &Whole,
     lines: &Lines,
     inner: &InnerPoints,
     sections: &[SectionFaces],
 ) -> (Complex, Vec<u32>) {
-    let sub = surface.sub;
-    let mut c = Complex {
+    let mut order: Vec<usize> = (0..sections.len()).collect();
+    order.sort_unstable_by_key(|&k| surface.knives.ids[k]);
+    let faces = Faces::new(surface, whole, sections, &order);
+    let mut first_face = vec![0; sections.len()];
+    for (part, place) in faces.parts.iter().zip(&faces.places) {
+        if let Part::Section(k) = part {
+            first_face[*k] = place.faces as u32;
+        }
+    }
+    let tag = |t: TriangleId| mesh.tags.get(t.at()).copied().unwrap_or(0);
+    let complex = Complex {
         mesh: mesh.clone(),
         planes: surface.input_planes.to_vec(),
         vertex_planes: vertex_planes(surface, inner),
         edges: edges(surface, lines),
-        face_loops: vec![0],
-        loop_offsets: vec![0],
+        face_loops: faces.face_loops(),
+        loop_offsets: faces.loop_offsets(),
+        corner_vertices: faces.corner_vertices(),
+        corner_edges: faces.corner_edges(),
+        face_support: faces.of_faces(SupportId::Triangle, SupportId::Plane),
+        face_plane: faces.of_faces(|t| plane_of_triangle(surface, t), |p| p),
+        face_tag: faces.of_faces(tag, |_| 0),
         ..Default::default()
     };
-    let corners = 3 * (mesh.triangles.len() - sub.cut.len())
-        + sub.faces.items.len()
-        + sections.iter().map(|s| s.loops.items.len()).sum::<usize>();
-    let faces =
-        mesh.triangles.len() - sub.cut.len() + sub.faces.len() + sections.iter().map(|s| s.faces.len()).sum::<usize>();
-    c.corner_vertices.reserve_exact(corners);
-    c.corner_edges.reserve_exact(corners);
-    c.loop_offsets.reserve(faces);
-    c.face_loops.reserve_exact(faces);
-    c.face_support.reserve_exact(faces);
-    c.face_plane.reserve_exact(faces);
-    c.face_tag.reserve_exact(faces);
-    let tag = |t: TriangleId| mesh.tags.get(t.at()).copied().unwrap_or(0);
-    let mut out = FaceWriter { c: &mut c };
-    let mut cut = sub.cut.iter().peekable();
-    for (t, corners) in mesh.triangles.iter().enumerate() {
-        let t = TriangleId::of(t);
-        if cut.next_if(|&&next| next == t).is_some() {
-            continue;
-        }
-        for (v, e) in corners.iter().zip(mesh.triangle_edges[t.at()]) {
-            out.corner(*v, EdgeId(edge_piece(surface.points, e)));
-        }
-        out.end_loop();
-        out.end_face(SupportId::Triangle(t), plane_of_triangle(surface, t), tag(t));
-    }
-    for (f, &t) in sub.face_triangle.iter().enumerate() {
-        sub.faces.row(f).iter().for_each(|&(v, e)| out.corner(v, e));
-        out.end_loop();
-        out.end_face(SupportId::Triangle(t), plane_of_triangle(surface, t), tag(t));
-    }
-    let mut order: Vec<usize> = (0..sections.len()).collect();
-    order.sort_unstable_by_key(|&k| surface.knives.ids[k]);
-    let mut first_face = vec![0; sections.len()];
-    for k in order {
-        let plane = surface.knives.ids[k];
-        first_face[k] = out.c.face_support.len() as u32;
-        for loops in sections[k].faces.rows() {
-            for &l in loops {
-                sections[k].loops.row(l as usize).iter().for_each(|&(v, e)| out.corner(v, e));
-                out.end_loop();
-            }
-            out.end_face(SupportId::Plane(plane), plane, 0);
-        }
-    }
-    (c, first_face)
+    (complex, first_face)
 }

@@ -90,13 +90,22 @@ impl Lines {
         surface: &'a Surface,
         first_edge: u32,
     ) -> impl FnMut(EdgeId) -> Option<[PlaneId; 2]> + 'a {
-        let mut line = 0;
+        let mut line = usize::MAX;
         // A segment with n points has n + 1 pieces.
         let end =
             move |l: usize| first_edge + self.segments[l + 1] + self.points.offsets[self.segments[l + 1] as usize];
         move |edge| {
             if edge.0 < first_edge {
                 return None;
+            }
+            if line == usize::MAX {
+                // Where to start: the first line that ends behind the edge.
+                let (mut low, mut high) = (0, self.knives.len());
+                while low < high {
+                    let middle = (low + high) / 2;
+                    if end(middle) <= edge.0 { low = middle + 1 } else { high = middle }
+                }
+                line = low;
             }
             while edge.0 >= end(line) {
                 line += 1;

@@ -11,6 +11,7 @@ pub mod cyclic;
 pub mod double_double;
 pub mod filter;
 pub mod fixed;
+mod interpolate;
 pub mod lift;
 pub mod planes;
 pub mod points;
