@@ -129,11 +129,14 @@ pub fn assemble(mut ground: Ground, found: Found) -> GridCells {
     };
     grid.corners = pieces.corners.items;
     let first_corner = grid.corners.len() as u32;
+    grid.corners.reserve_exact(squares.loops.items.len());
     grid.corners.append(&mut squares.loops.items);
     grid.corners.iter_mut().for_each(|v| *v = number[v.at()]);
     grid.loop_offsets = pieces.corners.offsets;
+    grid.loop_offsets.reserve_exact(squares.loops.len());
     grid.loop_offsets.extend(squares.loops.offsets[1..].iter().map(|o| o + first_corner));
-    grid.face_loops = (0..=walls as u32).collect();
+    grid.face_loops.reserve_exact(walls + squares.face_loops.len());
+    grid.face_loops.extend(0..=walls as u32);
     grid.face_loops.extend(squares.face_loops[1..].iter().map(|l| l + walls as u32));
     // Sides that are touched boxes become cells below.
     grid.square_cells = squares.sides;

@@ -112,6 +112,8 @@ pub fn cut_grid(mesh: &Arc<TriMesh>, lattice: Lattice, options: &GridOptions, ru
     limit(points.origins.len() + lines.nodes.len())?;
     run.stage("faces", 0.55)?;
     let surface_count = points.origins.len();
+    points.origins.reserve_exact(lines.nodes.len());
+    points.coords.reserve_exact(lines.nodes.len());
     points.origins.extend(lines.nodes.iter().map(|&n| {
         let at = lattice.node_at(n);
         Origin::Planes(lattice.plane(0, at[0]), lattice.plane(1, at[1]), lattice.plane(2, at[2]))

@@ -74,6 +74,12 @@ pub fn squares(scene: &Scene) -> Result<Squares> {
     let parts: Vec<Result<Squares>> =
         planes.par_iter().map_init(Buffers::default, |buffers, plane| scene.plane(plane, buffers)).collect();
     let mut out = Squares { face_loops: vec![0], ..Default::default() };
+    let total = |count: fn(&Squares) -> usize| parts.iter().flatten().map(count).sum::<usize>();
+    out.face_loops.reserve_exact(total(|p| p.node.len()));
+    out.loops.items.reserve_exact(total(|p| p.loops.items.len()));
+    out.loops.offsets.reserve_exact(total(|p| p.loops.len()));
+    out.node.reserve_exact(total(|p| p.node.len()));
+    out.sides.reserve_exact(total(|p| p.node.len()));
     for (plane, part) in planes.iter().zip(parts) {
         let part = part?;
         let (loops, corners) = (out.loops.len() as u32, out.loops.items.len() as u32);
