@@ -3,24 +3,24 @@
 
 use super::cells::Cells;
 use super::data::{CUT, EMPTY, FULL, GridCells};
-use super::ground::{Ground, Slabs, on_plane};
-use super::lines::Lines;
+use super::lattice::Lattice;
 use super::pieces::Pieces;
 use super::points::Points;
 use super::squares::Squares;
 use super::touched::{Bits, Touched};
 use crate::base::{CellId, VertexId};
 use crate::complex::Origin;
+use crate::mesh::TriMesh;
+use std::sync::Arc;
 
 /// A byte per box.
-pub fn flags(ground: &Ground, touched: &Touched, lines: &Lines, cells: &Cells) -> Vec<u8> {
-    let lattice = &ground.lattice;
+fn flags(lattice: &Lattice, touched: &Touched, inside: &Bits, cells: &Cells) -> Vec<u8> {
     let (nx, ny) = (lattice.count(0), lattice.count(1));
     let mut flags = vec![EMPTY; lattice.box_count()];
     for (r, row) in flags.chunks_exact_mut(nx).enumerate() {
         let (j, k) = (r % ny, r / ny);
         // The lowest node tells of a box that the surface does not touch.
-        let (nodes, boxes) = (lines.inside.row(j, k), touched.along[0].row(j, k));
+        let (nodes, boxes) = (inside.row(j, k), touched.along[0].row(j, k));
         for (w, chunk) in row.chunks_mut(64).enumerate() {
             let full = nodes[w] & !boxes[w];
             if full == !0 {
@@ -81,42 +81,33 @@ fn keep<T: Copy>(items: &mut Vec<T>, number: &[VertexId]) {
 
 /// What the stages found.
 pub struct Found {
+    pub mesh: Arc<TriMesh>,
+    pub lattice: Lattice,
+    /// The first point on a mesh edge, the first in a triangle, the first node.
+    pub kinds: [usize; 3],
+    /// Nodes in the fluid.
+    pub inside: Bits,
     pub pieces: Pieces,
     pub points: Points,
-    pub lines: Lines,
     pub squares: Squares,
     pub touched: Touched,
     pub cells: Cells,
 }
 
-pub fn assemble(mut ground: Ground, found: Found) -> GridCells {
-    let Found { mut pieces, mut points, lines, mut squares, touched, cells } = found;
-    let flags = flags(&ground, &touched, &lines, &cells);
-    // What is no longer read goes before the arrays that stay are made.
-    let (edge_points, inner_points) = (ground.first_edge_point() as usize, ground.first_inner_point() as usize);
-    (ground.classified, ground.points) = Default::default();
-    let nodes = lines.first_node as usize;
-    drop(lines);
-    let numbering = renumber(&pieces, &squares, [edge_points, inner_points, nodes], points.origins.len());
+pub fn assemble(found: Found) -> GridCells {
+    let Found { mesh, lattice, kinds, inside, pieces, mut points, mut squares, touched, cells } = found;
+    let numbering = renumber(&pieces, &squares, kinds, points.origins.len());
     let number = &numbering.number;
-    let bits = |s: &Slabs| (0..3).fold(0, |bits, a| bits | (on_plane(s[a]) as u8) << a);
-    let mut on_planes: Vec<u8> = Vec::with_capacity(points.origins.len());
-    on_planes.extend(ground.slabs.iter().map(bits));
-    on_planes.extend(pieces.point_slabs.iter().map(bits));
-    on_planes.resize(points.origins.len(), 7);
-    ground.slabs = Vec::new();
-    keep(&mut on_planes, number);
+    keep(&mut points.on_planes, number);
     keep(&mut points.origins, number);
     keep(&mut points.coords, number);
-    keep(&mut points.residuals, &number[edge_points..nodes]);
-    let Ground { mesh, lattice, .. } = ground;
-    (pieces.point_slabs, pieces.point_triangle, pieces.point_pair) = Default::default();
-
+    keep(&mut points.residuals, &number[kinds[0]..kinds[2]]);
+    let flags = flags(&lattice, &touched, &inside, &cells);
     let walls = pieces.triangle.len();
     let mut grid = GridCells {
         planes: lattice.planes(),
         flags,
-        on_planes,
+        on_planes: points.on_planes,
         constructed: numbering.ends[0] as u32..numbering.ends[2] as u32,
         residuals: points.residuals,
         extent: points.extent,

@@ -12,15 +12,17 @@
 //! reused, instead of numbered edges for the whole complex (those would cost more memory than all that is kept).
 
 use super::data::FULL_CELL;
-use super::ground::Ground;
+use super::lattice::Lattice;
 use super::pieces::Pieces;
+use super::points::Points;
 use super::squares::Squares;
 use super::touched::Touched;
 use super::voids;
 use crate::base::{Csr, Error, FaceId, Result, TriangleId, VertexId};
+use crate::complex::data::origin_point;
 use crate::complex::{HalfFace, SupportId, radial};
-use crate::cut::faces::AllVertices;
-use crate::exact::{Direction, Sign};
+use crate::exact::{self, Direction, Plane, Point, Sign};
+use crate::mesh::TriMesh;
 use crate::mesh::volume::volume_signs;
 use rayon::prelude::*;
 use std::cmp::Ordering;
@@ -36,8 +38,10 @@ pub struct Cells {
 
 /// What the search for shells reads.
 pub struct Faces<'a> {
-    pub ground: &'a Ground,
-    pub all: &'a AllVertices<'a>,
+    pub mesh: &'a TriMesh,
+    pub lattice: &'a Lattice,
+    pub planes: &'a [Plane],
+    pub points: &'a Points,
     pub pieces: &'a Pieces,
     pub squares: &'a Squares,
     pub touched: &'a Touched,
@@ -46,6 +50,14 @@ pub struct Faces<'a> {
 }
 
 impl Faces<'_> {
+    pub fn point(&self, v: VertexId) -> Point {
+        origin_point(self.mesh, self.planes, self.points.origins[v.at()])
+    }
+    /// Orders two vertices by a coordinate.
+    pub fn compare_coordinate(&self, a: VertexId, b: VertexId, axis: usize) -> Ordering {
+        let (x, y) = (self.points.coords[a.at()][axis], self.points.coords[b.at()][axis]);
+        exact::compare_rounded(x, y, || self.point(a), || self.point(b), axis)
+    }
     pub fn walls(&self) -> u32 {
         self.pieces.triangle.len() as u32
     }
@@ -72,8 +84,7 @@ impl Faces<'_> {
 }
 
 /// Sorts the half-faces by touched box.
-pub fn by_box(ground: &Ground, pieces: &Pieces, squares: &Squares, touched: &Touched) -> Csr<HalfFace> {
-    let lattice = &ground.lattice;
+pub fn by_box(lattice: &Lattice, pieces: &Pieces, squares: &Squares, touched: &Touched) -> Csr<HalfFace> {
     let walls = pieces.triangle.len();
     let of_walls = pieces
         .in_box
@@ -309,10 +320,10 @@ impl Scratch {
 
     fn join_around(&mut self, faces: &Faces, ends: u64) -> Result<()> {
         let [a, b] = [VertexId((ends >> 32) as u32), VertexId(ends as u32)];
-        let (x, y) = (&faces.all.coords[a.at()], &faces.all.coords[b.at()]);
+        let (x, y) = (&faces.points.coords[a.at()], &faces.points.coords[b.at()]);
         let best = (0..3).max_by(|&i, &j| (x[i] - y[i]).abs().total_cmp(&(x[j] - y[j]).abs())).unwrap();
         let axis = [best, (best + 1) % 3, (best + 2) % 3].into_iter().find_map(|axis| {
-            match faces.all.compare_coordinate(a, b, axis) {
+            match faces.compare_coordinate(a, b, axis) {
                 Ordering::Equal => None,
                 order => Some((axis, order == Ordering::Less)),
             }
@@ -326,7 +337,7 @@ impl Scratch {
             Err(axis) => SupportId::Plane(crate::base::PlaneId::of(axis)),
         };
         let normal = |i: u32| match faces.support(uses[i as usize].half_face.face()) {
-            Ok(t) => Direction::Triangle(faces.ground.mesh.corners(t)),
+            Ok(t) => Direction::Triangle(faces.mesh.corners(t)),
             Err(axis) => Direction::Plane(std::array::from_fn(|k| (k == axis) as u8 as f64)),
         };
         let same = |i: u32, j: u32| uses[i as usize].forward == uses[j as usize].forward;
@@ -352,8 +363,8 @@ impl Scratch {
         // Walls come first among the half-faces of a box.
         let shell_of: Vec<u32> =
             self.shell[..walls.len()].iter().map(|&s| if self.open[s as usize] { u32::MAX } else { s }).collect();
-        let triangles: Vec<[VertexId; 3]> = walls.iter().map(|t| faces.ground.mesh.triangles[t.at()]).collect();
-        let signs = volume_signs(&faces.ground.mesh.vertices, &triangles, &shell_of, count);
+        let triangles: Vec<[VertexId; 3]> = walls.iter().map(|t| faces.mesh.triangles[t.at()]).collect();
+        let signs = volume_signs(&faces.mesh.vertices, &triangles, &shell_of, count);
         let is_void: Vec<bool> = (0..count).map(|s| !self.open[s] && signs[s] != Sign::Positive).collect();
         if !is_void.contains(&true) {
             return Ok(());
@@ -365,7 +376,7 @@ impl Scratch {
 }
 
 fn contradiction(faces: &Faces, ends: u64) -> Error {
-    let x = faces.all.coords[(ends >> 32) as usize];
+    let x = faces.points.coords[(ends >> 32) as usize];
     Error::inconsistent(format!(
         "faces around an edge at ({}, {}, {}) do not alternate between inside and outside: the surface intersects itself, or a \
          block lacks some of its triangles",

@@ -48,8 +48,10 @@ impl Ground {
                 k.0 == first_knife[a] + r as u32 && !knives.reversed[k.at()]
             })
         }));
-        let classified = classify(mesh, &knives);
-        let points = edge_points(mesh, &knives, &classified);
+        let mut classified = classify(mesh, &knives);
+        let mut points = edge_points(mesh, &knives, &classified);
+        // Read no more: the points and their slabs say it all.
+        (classified.edge_crossings, points.rank) = Default::default();
         let mut ground = Ground {
             mesh: mesh.clone(),
             lattice: lattice.clone(),

@@ -23,7 +23,6 @@ pub mod touched;
 pub mod voids;
 
 use crate::base::{Csr, Error, Result, Run, Status, VertexId};
-use crate::complex::Origin;
 use crate::cut::classify::KnifeId;
 use crate::cut::faces::AllVertices;
 use crate::cut::surface;
@@ -74,7 +73,7 @@ pub fn cut_grid(mesh: &Arc<TriMesh>, lattice: Lattice, options: &GridOptions, ru
     let mut points = points::points(&ground, &pieces, &planes);
     run.stage("touched", 0.4)?;
     let slabs = AllSlabs { ground: &ground, pieces: &pieces };
-    let touched = Touched::new(&lattice, slabs.each());
+    let mut touched = Touched::new(&lattice, slabs.each());
     let contents = squares::Contents {
         chords: Csr::from_pairs(ground.knives.len(), pieces.chords.iter().map(|&(k, c)| (k.at(), c))),
         edges: Csr::from_pairs(ground.knives.len(), ground.classified.edges_on.iter().map(|&(e, k)| (k.at(), e))),
@@ -112,35 +111,38 @@ pub fn cut_grid(mesh: &Arc<TriMesh>, lattice: Lattice, options: &GridOptions, ru
     limit(points.origins.len() + lines.nodes.len())?;
     run.stage("faces", 0.55)?;
     let surface_count = points.origins.len();
-    points.origins.reserve_exact(lines.nodes.len());
-    points.coords.reserve_exact(lines.nodes.len());
-    points.origins.extend(lines.nodes.iter().map(|&n| {
-        let at = lattice.node_at(n);
-        Origin::Planes(lattice.plane(0, at[0]), lattice.plane(1, at[1]), lattice.plane(2, at[2]))
-    }));
-    points.coords.extend(lines.nodes.iter().map(|&n| {
-        let at = lattice.node_at(n);
-        [lattice.nodes[0][at[0]], lattice.nodes[1][at[1]], lattice.nodes[2][at[2]]]
-    }));
+    points.add_nodes(&lattice, &lines.nodes);
     let surface = surface_ground.with(&points.origins[..surface_count], &points.coords[..surface_count]);
     let all = AllVertices { surface: &surface, origins: &points.origins, coords: &points.coords };
     let scene = squares::Scene { all: &all, slabs, lines: &lines, touched: &touched, contents: &contents };
     let squares = squares::squares(&scene)?;
     debug_assert_eq!(squares.check(), Ok(()));
     limit(pieces.corners.items.len() + squares.loops.items.len())?;
-    drop(contents);
+    // What is no longer read goes before the largest arrays are made.
+    let kinds = [ground.first_edge_point(), ground.first_inner_point(), lines.first_node].map(|v| v as usize);
+    let inside = lines.inside;
+    touched.forget_lines();
+    (pieces.point_triangle, pieces.point_slabs, pieces.point_pair) = Default::default();
+    drop((contents, sub, ground, lines.hits, lines.needed, lines.ranks, lines.nodes));
     run.stage("cells", 0.75)?;
-    let of_box = cells::by_box(&ground, &pieces, &squares, &touched);
+    let of_box = cells::by_box(&lattice, &pieces, &squares, &touched);
     pieces.in_box = Vec::new();
-    let faces =
-        cells::Faces { ground: &ground, all: &all, pieces: &pieces, squares: &squares, touched: &touched, of_box };
+    let faces = cells::Faces {
+        mesh: &mesh,
+        lattice: &lattice,
+        planes: &planes,
+        points: &points,
+        pieces: &pieces,
+        squares: &squares,
+        touched: &touched,
+        of_box,
+    };
     let cells = cells::cells(&faces)?;
     debug_assert_eq!(cells.check(), Ok(()));
     drop(faces);
-    drop(sub);
     run.stage("assemble", 0.9)?;
-    let found = assemble::Found { pieces, points, lines, squares, touched, cells };
-    let grid = assemble::assemble(ground, found);
+    let grid =
+        assemble::assemble(assemble::Found { mesh, lattice, kinds, inside, pieces, points, squares, touched, cells });
     run.end_stage();
     Ok(grid)
 }

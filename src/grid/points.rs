@@ -4,9 +4,10 @@
 //! plane x_l = c; a point in a triangle with normal n on two planes has a_c − (n_a(x_a − a_a) + n_b(x_b − a_b))/n_c.
 //! They are evaluated as double-doubles with bounds; where these do not decide how to round (exact ties are common), `exact::round` does. Cost: about 0.1 µs per point.
 
-use super::ground::{Ground, on_plane};
+use super::ground::{Ground, Slabs, on_plane};
+use super::lattice::Lattice;
 use super::pieces::Pieces;
-use crate::base::{EdgeId, TriangleId, VertexId};
+use crate::base::{EdgeId, NodeId, TriangleId, VertexId};
 use crate::complex::Origin;
 use crate::complex::data::origin_point;
 use crate::exact::double_double::DoubleDouble;
@@ -20,6 +21,8 @@ use rug::Rational;
 pub struct Points {
     pub origins: Vec<Origin>,
     pub coords: Vec<[f64; 3]>,
+    /// Bit `a`: on a plane normal to axis `a`.
+    pub on_planes: Vec<u8>,
     /// Of points on mesh edges and in triangles: exact coordinates less rounded ones, within 2⁻⁹⁰·extent.
     pub residuals: Vec<[f64; 3]>,
     pub extent: f64,
@@ -84,7 +87,9 @@ pub fn points(ground: &Ground, pieces: &Pieces, planes: &[Plane]) -> Points {
             }
         },
     );
-    Points { origins, coords, residuals, extent }
+    let bits = |s: &Slabs| (0..3).fold(0, |bits, a| bits | (on_plane(s[a]) as u8) << a);
+    let on_planes = ground.slabs.iter().chain(&pieces.point_slabs).map(bits).collect();
+    Points { origins, coords, on_planes, residuals, extent }
 }
 
 /// Fills in a coordinate and its residual from a value with a bound that is small enough; whether the bound decides how to round.
@@ -101,6 +106,21 @@ fn settle(q: &DoubleDouble, x: &mut f64, low: &mut f64) -> bool {
 fn difference(x: f64, y: f64) -> DoubleDouble {
     let (hi, lo) = exact::double_double::two_sum(x, -y);
     DoubleDouble { hi, lo, err: 0.0 }
+}
+
+impl Points {
+    /// Appends nodes of the lattice.
+    pub fn add_nodes(&mut self, lattice: &Lattice, nodes: &[NodeId]) {
+        self.origins.reserve_exact(nodes.len());
+        self.coords.reserve_exact(nodes.len());
+        for &n in nodes {
+            let at = lattice.node_at(n);
+            let [p, q, r] = std::array::from_fn(|a| lattice.plane(a, at[a]));
+            self.origins.push(Origin::Planes(p, q, r));
+            self.coords.push(std::array::from_fn(|a| lattice.nodes[a][at[a]]));
+        }
+        self.on_planes.resize(self.origins.len(), 7);
+    }
 }
 
 /// A point's coordinates, as far as they are not on planes: values with bounds.

@@ -144,6 +144,10 @@ impl Touched {
         }
         Touched { along: [x, y, z], ranks, boxes }
     }
+    /// Frees the rows along y and z.
+    pub fn forget_lines(&mut self) {
+        (self.along[1], self.along[2]) = Default::default();
+    }
     #[inline(always)]
     pub fn get(&self, [i, j, k]: [usize; 3]) -> bool {
         self.along[0].get(i, j, k)

@@ -9,7 +9,6 @@
 
 use super::cells::Faces;
 use crate::base::{Error, FaceId, Result, TriangleId, UnionFind, VertexId};
-use crate::complex::data::origin_point;
 use crate::exact::{self, Sign};
 use crate::mesh::bvh::build_bvh;
 use crate::mesh::projection::turn;
@@ -38,7 +37,7 @@ pub fn hang(scene: &Box, is_void: &[bool]) -> Result<Vec<u32>> {
         [one] => return Ok((0..is_void.len() as u32).map(|s| if is_void[s as usize] { one } else { s }).collect()),
         _ => &outer,
     };
-    let mesh = &scene.faces.ground.mesh;
+    let mesh = scene.faces.mesh;
     let bvh = build_bvh(&mesh.vertices, scene.triangles);
     let rays = Scene { vertices: &mesh.vertices, triangles: scene.triangles, bvh: &bvh };
     let mut same = UnionFind::new(is_void.len());
@@ -59,7 +58,7 @@ pub fn hang(scene: &Box, is_void: &[bool]) -> Result<Vec<u32>> {
 }
 
 fn lost(scene: &Box) -> Error {
-    let at = scene.faces.ground.lattice.box_at(scene.faces.touched.boxes[scene.number]);
+    let at = scene.faces.lattice.box_at(scene.faces.touched.boxes[scene.number]);
     Error::inconsistent(format!(
         "no fluid surrounds a closed shell in box ({}, {}, {}) of the block: the surface intersects itself",
         at[0], at[1], at[2]
@@ -90,7 +89,7 @@ fn beyond(scene: &Box, rays: &Scene, void: u32) -> Result<u32> {
 /// What the ray meets behind its last crossing with the void; `None` if it is degenerate.
 fn follow(scene: &Box, rays: &Scene, void: u32, start: &RayStart) -> Result<Option<u32>> {
     let Ok(crossings) = rays.ordered_crossings(start) else { return Ok(None) };
-    let lattice = &scene.faces.ground.lattice;
+    let lattice = scene.faces.lattice;
     let corners = lattice.corners(scene.faces.touched.boxes[scene.number]);
     let exit = Rational::from_f64(corners[start.positive as usize][start.axis]).unwrap_or_default();
     let in_box = |x: &Rational| if start.positive { *x <= exit } else { *x >= exit };
@@ -121,10 +120,7 @@ fn face_at(scene: &Box, start: &RayStart, x: &[Rational; 3]) -> Option<u32> {
 /// Whether a face in a grid plane holds a point, seen along the plane's axis: crossings to one side, counted half-open. `None` on an edge.
 fn holds(faces: &Faces, f: FaceId, axis: usize, x: &[Rational; 3]) -> Option<bool> {
     let (u, w) = ((axis + 1) % 3, (axis + 2) % 3);
-    let point = |v: VertexId| {
-        let all = faces.all;
-        exact::rational(&origin_point(all.surface.mesh, all.surface.input_planes, all.origins[v.at()]))
-    };
+    let point = |v: VertexId| exact::rational(&faces.point(v));
     let mut inside = false;
     let mut on_edge = false;
     faces.each_loop(f, |row| {
