@@ -1,10 +1,12 @@
 #!/usr/bin/python3
-"""Opens a .vtu that `cut_mesh --vtu` wrote with VTK's own reader and compares it with the .json of the same run.
+"""Opens a .vtu that `cut_mesh --vtu` or `cut_grid --vtu` wrote with VTK's own reader and compares it with the .json of the same
+run.
 
     check_vtu.py CELLS.vtu COUNTS.json
 
-Checks, all of them exactly: every cell is a polyhedron; as many of them, and as many points, as the JSON says; the volumes
-in the file are the JSON's, bit for bit; and each cell is closed: every directed edge of its faces is met by its reverse.
+Checks, all of them exactly: every cell is a polyhedron, then come hexahedra; as many of both, and as many points, as the JSON says;
+the polyhedra's volumes in the file are the JSON's, bit for bit; and each polyhedron is closed: every directed edge of its faces
+is met by its reverse.
 Exit status: 0 fine, 1 something differs, 77 VTK for Python is not installed.
 """
 
@@ -14,7 +16,7 @@ from collections import Counter
 
 try:
     from vtkmodules.vtkCommonCore import vtkIdList
-    from vtkmodules.vtkCommonDataModel import VTK_POLYHEDRON
+    from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON, VTK_POLYHEDRON
     from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 except ImportError as error:
     print(f"skipped: VTK for Python is not installed ({error})")
@@ -35,14 +37,20 @@ def faces_of(grid, cell):
 
 def problems(grid, counts):
     """What is wrong with the grid, as sentences."""
-    cells = grid.GetNumberOfCells()
-    if cells != counts["output"]["cells"]:
-        yield f"{cells} cells, the JSON says {counts['output']['cells']}"
-    if grid.GetNumberOfPoints() != counts["output"]["vertices"]:
-        yield f"{grid.GetNumberOfPoints()} points, the JSON says {counts['output']['vertices']}"
+    output = counts["output"]
+    cells, hexahedra = output["cells"], output.get("hexahedra", 0)
+    if grid.GetNumberOfCells() != cells + hexahedra:
+        yield f"{grid.GetNumberOfCells()} cells, the JSON says {cells} and {hexahedra} hexahedra"
+        return
+    points = output["vertices"] + output.get("hexahedra_points", 0)
+    if grid.GetNumberOfPoints() != points:
+        yield f"{grid.GetNumberOfPoints()} points, the JSON says {points}"
     volume = grid.GetCellData().GetArray("volume")
     if [volume.GetValue(i) for i in range(cells)] != counts["cell_volumes"]:
         yield "the cells' volumes differ from the JSON's"
+    for cell in range(cells, cells + hexahedra):
+        if grid.GetCellType(cell) != VTK_HEXAHEDRON:
+            yield f"cell {cell} is not a hexahedron"
     for cell in range(cells):
         if grid.GetCellType(cell) != VTK_POLYHEDRON:
             yield f"cell {cell} is not a polyhedron"
@@ -70,7 +78,10 @@ def main():
         print(f"{sys.argv[1]}: {problem}")
     if found:
         sys.exit(1)
-    print(f"{sys.argv[1]}: VTK reads {grid.GetNumberOfCells()} closed polyhedra on {grid.GetNumberOfPoints()} points")
+    hexahedra = counts["output"].get("hexahedra", 0)
+    more = f" and {hexahedra} hexahedra" if hexahedra else ""
+    closed = grid.GetNumberOfCells() - hexahedra
+    print(f"{sys.argv[1]}: VTK reads {closed} closed polyhedra{more} on {grid.GetNumberOfPoints()} points")
 
 
 if __name__ == "__main__":

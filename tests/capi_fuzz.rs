@@ -4,7 +4,7 @@
 #[path = "common/random.rs"]
 mod random;
 
-use lapidary::capi::{context::*, cut::*, derived::*, mesh::*, status::*};
+use lapidary::capi::{context::*, cut::*, derived::*, keys::*, mesh::*, status::*};
 use random::Random;
 use std::ptr::{null, null_mut};
 
@@ -135,6 +135,17 @@ unsafe fn consistent(
             let status = lap_complex_polygons(complex, style, null_mut(), null_mut(), null_mut(), null_mut());
             assert!(status == LAP_OK || (status == LAP_ERR_INCONSISTENT && !checked), "round {round}: style {style}");
         }
+        let (mut count, mut keys) = (0, null::<i64>());
+        assert_eq!(lap_complex_vertex_keys(complex, &mut count, &mut keys), LAP_OK);
+        assert!((0..count as usize).all(|v| *keys.add(2 * v) >= 0), "round {round}: a negative key");
+        let status = lap_complex_face_keys(complex, &mut count, &mut keys);
+        assert!(status == LAP_OK || (status == LAP_ERR_INCONSISTENT && !checked), "round {round}: keys");
+        let faces: Vec<[i64; 2]> = match status == LAP_OK {
+            true => (0..count as usize).map(|f| [*keys.add(2 * f), *keys.add(2 * f + 1)]).collect(),
+            false => Vec::new(),
+        };
+        let different: std::collections::BTreeSet<&[i64; 2]> = faces.iter().collect();
+        assert!(!checked || different.len() == faces.len(), "round {round}: two faces with one key");
         let (mut output, mut input) = (0, 0);
         let status = lap_complex_euler(complex, &mut output, &mut input);
         assert!(status == LAP_OK || !checked, "round {round}");

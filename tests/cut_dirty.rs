@@ -8,7 +8,7 @@ mod solids;
 use common::Soup;
 use lapidary::base::{CellId, FaceId, Run, Status, VertexId};
 use lapidary::complex::{
-    Complex, FaceStyle, adjacency, check, check_volumes, euler, exact_values, faces_as, moments, solid_euler,
+    Complex, FaceStyle, adjacency, check, check_volumes, euler, exact_values, faces_as, keys, moments, solid_euler,
 };
 use lapidary::cut::{CutOptions, cut};
 use lapidary::exact::Plane;
@@ -25,6 +25,9 @@ fn use_all(c: &Complex, exactly: bool) {
     let m = moments(c);
     assert_eq!((m.cell_volume.len(), m.face_flags.len()), (c.cell_count(), c.face_count()));
     let _ = (adjacency(c), euler(c), solid_euler(&c.mesh), check_volumes(c));
+    let names = keys::names(&c.mesh, &c.planes, &Default::default()).unwrap();
+    assert_eq!(keys::vertex_keys(c, &names).len(), c.vertex_count());
+    assert!(keys::face_keys(c, &names).is_ok_and(|k| k.len() == c.face_count()));
     for style in [FaceStyle::Holes, FaceStyle::Bridged, FaceStyle::Triangulated] {
         if let Ok(rows) = faces_as(c, style) {
             assert!(rows.vertices.iter().all(|v| v.at() < c.vertex_count()));
