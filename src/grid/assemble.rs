@@ -102,11 +102,9 @@ pub fn assemble(found: Found) -> GridCells {
     keep(&mut points.origins, number);
     keep(&mut points.coords, number);
     keep(&mut points.residuals, &number[kinds[0]..kinds[2]]);
-    let flags = flags(&lattice, &touched, &inside, &cells);
     let walls = pieces.triangle.len();
     let mut grid = GridCells {
         planes: lattice.planes(),
-        flags,
         on_planes: points.on_planes,
         constructed: numbering.ends[0] as u32..numbering.ends[2] as u32,
         residuals: points.residuals,
@@ -129,6 +127,8 @@ pub fn assemble(found: Found) -> GridCells {
     grid.face_loops.reserve_exact(walls + squares.face_loops.len());
     grid.face_loops.extend(0..=walls as u32);
     grid.face_loops.extend(squares.face_loops[1..].iter().map(|l| l + walls as u32));
+    drop(numbering);
+    grid.flags = flags(&lattice, &touched, &inside, &cells);
     // Sides that are touched boxes become cells below.
     grid.square_cells = squares.sides;
     grid.square_node = squares.node;

@@ -71,24 +71,27 @@ pub fn squares(scene: &Scene) -> Result<Squares> {
             PlaneOf { knife, axis, rank, u: (axis + 1) % 3, w: (axis + 2) % 3 }
         })
         .collect();
-    let parts: Vec<Result<Squares>> =
-        planes.par_iter().map_init(Buffers::default, |buffers, plane| scene.plane(plane, buffers)).collect();
     let mut out = Squares { face_loops: vec![0], ..Default::default() };
-    let total = |count: fn(&Squares) -> usize| parts.iter().flatten().map(count).sum::<usize>();
-    out.face_loops.reserve_exact(total(|p| p.node.len()));
-    out.loops.items.reserve_exact(total(|p| p.loops.items.len()));
-    out.loops.offsets.reserve_exact(total(|p| p.loops.len()));
-    out.node.reserve_exact(total(|p| p.node.len()));
-    out.sides.reserve_exact(total(|p| p.node.len()));
-    for (plane, part) in planes.iter().zip(parts) {
-        let part = part?;
-        let (loops, corners) = (out.loops.len() as u32, out.loops.items.len() as u32);
-        out.face_loops.extend(part.face_loops[1..].iter().map(|l| l + loops));
-        out.loops.items.extend(part.loops.items);
-        out.loops.offsets.extend(part.loops.offsets[1..].iter().map(|o| o + corners));
-        out.node.extend(part.node);
-        out.sides.extend(part.sides);
-        out.axis_faces[plane.axis + 1..].fill(out.node.len() as u32);
+    // An axis at a time: what is joined is held twice only in part.
+    for planes in planes.chunk_by(|p, q| p.axis == q.axis) {
+        let parts: Vec<Result<Squares>> =
+            planes.par_iter().map_init(Buffers::default, |buffers, plane| scene.plane(plane, buffers)).collect();
+        let total = |count: fn(&Squares) -> usize| parts.iter().flatten().map(count).sum::<usize>();
+        out.face_loops.reserve_exact(total(|p| p.node.len()));
+        out.loops.items.reserve_exact(total(|p| p.loops.items.len()));
+        out.loops.offsets.reserve_exact(total(|p| p.loops.len()));
+        out.node.reserve_exact(total(|p| p.node.len()));
+        out.sides.reserve_exact(total(|p| p.node.len()));
+        for part in parts {
+            let part = part?;
+            let (loops, corners) = (out.loops.len() as u32, out.loops.items.len() as u32);
+            out.face_loops.extend(part.face_loops[1..].iter().map(|l| l + loops));
+            out.loops.items.extend(part.loops.items);
+            out.loops.offsets.extend(part.loops.offsets[1..].iter().map(|o| o + corners));
+            out.node.extend(part.node);
+            out.sides.extend(part.sides);
+        }
+        out.axis_faces[planes[0].axis + 1..].fill(out.node.len() as u32);
     }
     Ok(out)
 }
