@@ -223,8 +223,8 @@ typedef struct lap_grid lap_grid;
 
 /*
  A closed triangle mesh that bounds a solid: the triangles of every edge balance in orientation, solids are oriented
- outward and voids inward. Any genus, several components, voids, non-manifold edges and vertices. Immutable: a const
- handle may be used from many threads at once.
+ outward and voids inward. Any genus, several components, voids, non-manifold edges and vertices. A const
+ handle may be used from many threads at once; only lap_mesh_update_coordinates changes a mesh.
  */
 typedef struct lap_mesh lap_mesh;
 
@@ -521,6 +521,29 @@ int32_t lap_mesh_new(struct lap_context *context,
                      const int32_t *tags,
                      const struct lap_mesh_options *options,
                      struct lap_mesh **mesh);
+
+/*
+ Moves the vertices of a mesh and keeps its connectivity: the adjacency is reused, everything that depends on coordinates is
+ checked and computed anew, so that the mesh is afterwards what lap_mesh_new would make of them.
+
+ The handle is not const: no other thread may use it meanwhile, and what was borrowed from it (lap_mesh_vertices,
+ lap_mesh_bounds, ...) is no longer valid. Cuts and grids made from the mesh before keep the mesh that they were made
+ from. After an error the mesh is unchanged.
+
+ Inputs (borrowed for the call): xyz: 3 × n_vertices coordinates in the order of lap_mesh_vertices, which is the caller's own
+ order unless there were unused or merged vertices; options: or NULL for the defaults; only
+ check_self_intersection counts, and vertices that have become equal are a defect.
+
+ Errors: LAP_ERR_BAD_ARGUMENT if n_vertices is not the number of vertices of the mesh; LAP_ERR_BAD_MESH with all
+ defects found (lap_context_last_defects; ids are those of the mesh); LAP_ERR_NULL_POINTER, LAP_ERR_TOO_LARGE,
+ LAP_ERR_INCONSISTENT, LAP_ERR_CANCELLED, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY.
+ Cost: linear, about a third of that of lap_mesh_new; a copy of the mesh if a cut or a grid holds it.
+ */
+int32_t lap_mesh_update_coordinates(struct lap_context *context,
+                                    struct lap_mesh *mesh,
+                                    int64_t n_vertices,
+                                    const double *xyz,
+                                    const struct lap_mesh_options *options);
 
 /*
  Runs every check of lap_mesh_new, the one for self-intersections included, without making a mesh.

@@ -278,6 +278,15 @@ public:
         with.run(status);
     }
 
+    /* New coordinates on the same connectivity, three per vertex in the order of vertices(). What was borrowed before is
+       no longer valid; cuts and grids made before are not touched. After an error the mesh is unchanged. */
+    void update_coordinates(context &with, const std::vector<double> &xyz, const lap_mesh_options &options = mesh_options())
+    {
+        if (xyz.size() % 3 != 0) throw error(LAP_ERR_BAD_ARGUMENT, "xyz does not hold three numbers per vertex");
+        with.run(lap_mesh_update_coordinates(with.get(), handle_.get(), static_cast<std::int64_t>(xyz.size() / 3), xyz.data(),
+                                             &options));
+    }
+
     counts_t counts() const
     {
         counts_t n{};
