@@ -24,6 +24,7 @@ const SOURCES: &[&str] = &[
     "grid_boxes",
     "grid_cells",
     "grid_moments",
+    "grid_fluid",
 ];
 
 fn main() {

@@ -125,7 +125,7 @@ struct GridReport {
     std::int64_t input_vertices = 0, input_triangles = 0, input_components = 0;
     std::array<std::int64_t, 3> boxes{}, first{}, total{};
     std::int64_t empty = 0, full = 0, cut = 0, multi_part = 0;
-    std::int64_t vertices = 0, faces = 0, walls = 0, cells = 0;
+    std::int64_t vertices = 0, faces = 0, walls = 0, cells = 0, regions = 0;
     double cut_volume = 0, full_volume = 0, fluid_volume = 0, smallest_fraction = 0;
     // Known if the block covers the mesh: the volume that must come out.
     bool covered = false;
@@ -175,6 +175,7 @@ inline void fill_grid_report(GridReport &r, lap_context *context, const lap_mesh
     r.fluid_volume = value(sum);
     must(context, lap_mesh_volume(mesh, &r.expected_volume));
     if (r.outside) r.expected_volume = block_volume - r.expected_volume;
+    must(context, lap_grid_regions(grid, &r.regions, nullptr, nullptr));
 }
 
 inline void print_grid_table(const GridReport &r)
@@ -201,6 +202,7 @@ inline void print_grid_table(const GridReport &r)
     print_count("  walls", r.walls);
     print_count("cells", r.cells);
     print_number("smallest fraction", r.smallest_fraction);
+    print_count("fluid regions", r.regions);
     std::printf("volume\n");
     print_number("of full boxes", r.full_volume);
     print_number("of cut cells", r.cut_volume);
@@ -232,6 +234,7 @@ inline void write_grid_json(const std::string &path, const GridReport &r, bool w
                       {"faces", r.faces},
                       {"walls", r.walls},
                       {"cells", r.cells},
+                      {"regions", r.regions},
                       {"hexahedra", hexahedra.count()},
                       {"hexahedra_points", hexahedra.points.size() / 3}};
     json["smallest_fraction"] = r.smallest_fraction;
@@ -278,11 +281,11 @@ inline void write_grid_vtu(const std::string &path, lap_context *context, const 
 {
     const lap_complex *complex = nullptr;
     must(context, lap_grid_complex(grid, &complex));
-    std::int64_t faces = 0, cell_count = 0;
+    std::int64_t faces = 0, cell_count = 0, region_count = 0;
     must(context, lap_complex_counts(complex, nullptr, nullptr, &faces, nullptr, nullptr, nullptr, nullptr));
     const Polygons polygons = polygons_of(context, complex, LAP_FACES_BRIDGED, faces);
     Cells cells{};
-    const std::int32_t *boxes = nullptr;
+    const std::int32_t *boxes = nullptr, *regions = nullptr;
     const double *volumes = nullptr, *fractions = nullptr, *centroids = nullptr, *wall_areas = nullptr,
                  *wall_centroids = nullptr;
     must(context, lap_complex_vertices(complex, &cells.vertex_count, &cells.coordinates));
@@ -290,6 +293,7 @@ inline void write_grid_vtu(const std::string &path, lap_context *context, const 
                                  &cells.half_faces));
     must(context, lap_grid_cell_moments(grid, &cell_count, &volumes, &fractions, &centroids, nullptr));
     must(context, lap_grid_cell_boundaries(grid, nullptr, &wall_areas, &wall_centroids));
+    must(context, lap_grid_regions(grid, &region_count, nullptr, &regions));
 
     const Block block = block_of(context, grid);
     const std::size_t total = static_cast<std::size_t>(cell_count) + full_boxes.size();
@@ -302,7 +306,7 @@ inline void write_grid_vtu(const std::string &path, lap_context *context, const 
     std::vector<double> volume = extended(volumes, 1), fraction = extended(fractions, 1),
                         centroid = extended(centroids, 3), wall_area = extended(wall_areas, 3),
                         wall_centroid = extended(wall_centroids, 3);
-    std::vector<std::int32_t> part;
+    std::vector<std::int32_t> region(regions, regions + cell_count), part;
     std::vector<std::int64_t> ijk, cell;
     auto add_box = [&](std::int64_t b) {
         const auto at = block.box_at(b);
@@ -315,6 +319,10 @@ inline void write_grid_vtu(const std::string &path, lap_context *context, const 
     }
     for (std::int64_t b : full_boxes) {
         const auto at = block.box_at(b);
+        std::int32_t of_box = -1;
+        must(context, lap_grid_box_region(grid, static_cast<std::int32_t>(at[0]), static_cast<std::int32_t>(at[1]),
+                                          static_cast<std::int32_t>(at[2]), &of_box));
+        region.push_back(of_box);
         part.push_back(0);
         cell.push_back(LAP_CELL_FULL);
         add_box(b);
@@ -332,13 +340,15 @@ inline void write_grid_vtu(const std::string &path, lap_context *context, const 
         add_array(file, "centroid", centroid, 3);
         add_array(file, "wall_area", wall_area, 3);
         add_array(file, "wall_centroid", wall_centroid, 3);
+        add_array(file, "region", region);
         add_array(file, "box", ijk, 3);
         add_array(file, "part", part);
         add_array(file, "cell", cell);
     });
 }
 
-// One file over the pieces NAME_0.vtu, NAME_1.vtu, ... that write_grid_vtu wrote.
+// One file over the pieces NAME_0.vtu, NAME_1.vtu, ... that write_grid_vtu wrote. Without regions, which each block counts for
+// itself.
 inline void write_pvtu(const std::string &name, int pieces)
 {
     const std::string folder_free = name.substr(name.rfind('/') + 1);

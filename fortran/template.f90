@@ -28,7 +28,8 @@
 !   x = xyz(:, corner_vertices(k))
 !
 ! Build: compile this file with the compiler of the program (module files are not portable) and link the library. With
-! CMake, target_link_libraries(program PRIVATE lapidary::fortran) does both.
+! CMake, target_link_libraries(program PRIVATE lapidary::fortran) does both; for several programs in one folder make one
+! library that links it, so that the module file is written once.
 module lapidary
   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_double, c_f_pointer, c_funptr, c_int32_t, c_int64_t, &
     c_int8_t, c_ptr, c_size_t

@@ -165,6 +165,15 @@
 /* The node is neither in the fluid nor on the surface. */
 #define LAP_NODE_SOLID 2
 
+/* Where a point is: not in the fluid. */
+#define LAP_REGION_SOLID -1
+
+/* Where a point is: on the surface, exactly. */
+#define LAP_REGION_SURFACE -2
+
+/* Where a point is: outside the block's closed box. */
+#define LAP_REGION_BEYOND -3
+
 /*
  A complex as triangles over doubles that were checked exactly, repaired where rounding had made triangles meet, and a
  report. Immutable: a const handle may be used from many threads at once.
@@ -223,8 +232,8 @@ typedef struct lap_grid lap_grid;
 
 /*
  A closed triangle mesh that bounds a solid: the triangles of every edge balance in orientation, solids are oriented
- outward and voids inward. Any genus, several components, voids, non-manifold edges and vertices. Immutable: a const
- handle may be used from many threads at once.
+ outward and voids inward. Any genus, several components, voids, non-manifold edges and vertices. A const
+ handle may be used from many threads at once; only lap_mesh_update_coordinates changes a mesh.
  */
 typedef struct lap_mesh lap_mesh;
 
@@ -521,6 +530,29 @@ int32_t lap_mesh_new(struct lap_context *context,
                      const int32_t *tags,
                      const struct lap_mesh_options *options,
                      struct lap_mesh **mesh);
+
+/*
+ Moves the vertices of a mesh and keeps its connectivity: the adjacency is reused, everything that depends on coordinates is
+ checked and computed anew, so that the mesh is afterwards what lap_mesh_new would make of them.
+
+ The handle is not const: no other thread may use it meanwhile, and what was borrowed from it (lap_mesh_vertices,
+ lap_mesh_bounds, ...) is no longer valid. Cuts and grids made from the mesh before keep the mesh that they were made
+ from. After an error the mesh is unchanged.
+
+ Inputs (borrowed for the call): xyz: 3 × n_vertices coordinates in the order of lap_mesh_vertices, which is the caller's own
+ order unless there were unused or merged vertices; options: or NULL for the defaults; only
+ check_self_intersection counts, and vertices that have become equal are a defect.
+
+ Errors: LAP_ERR_BAD_ARGUMENT if n_vertices is not the number of vertices of the mesh; LAP_ERR_BAD_MESH with all
+ defects found (lap_context_last_defects; ids are those of the mesh); LAP_ERR_NULL_POINTER, LAP_ERR_TOO_LARGE,
+ LAP_ERR_INCONSISTENT, LAP_ERR_CANCELLED, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY.
+ Cost: linear, about a third of that of lap_mesh_new; a copy of the mesh if a cut or a grid holds it.
+ */
+int32_t lap_mesh_update_coordinates(struct lap_context *context,
+                                    struct lap_mesh *mesh,
+                                    int64_t n_vertices,
+                                    const double *xyz,
+                                    const struct lap_mesh_options *options);
 
 /*
  Runs every check of lap_mesh_new, the one for self-intersections included, without making a mesh.
@@ -1634,6 +1666,147 @@ int32_t lap_grid_cell_tags(const struct lap_grid *grid,
                            const int32_t **tags,
                            const double **area_vectors,
                            const double **centroids);
+
+/*
+ The faces of full boxes that are not stored, of one grid plane: squares between two full boxes, and squares of full boxes at
+ the block's boundary. (A square between a full box and a cut one is a face of the cut box: lap_grid_plane_faces.)
+
+ axis: 0, 1, 2 for the planes across x, y, z; node: the plane, from the block's low corner. Outputs (each may be NULL; valid until
+ the next call with this context): count; nodes: count, the number of the lowest node of each square, rising; boxes: 2 × count,
+ the numbers of the full boxes on the lower and on the upper side, -1 beyond the block.
+
+ Errors: LAP_ERR_BAD_ARGUMENT for an axis or a plane that is not there; LAP_ERR_NULL_POINTER, LAP_ERR_OUT_OF_MEMORY,
+ LAP_ERR_BUSY. Cost: linear in the boxes beside the plane.
+ */
+int32_t lap_grid_full_faces(struct lap_context *context,
+                            const struct lap_grid *grid,
+                            int32_t axis,
+                            int32_t node,
+                            int64_t *count,
+                            const int32_t **nodes,
+                            const int32_t **boxes);
+
+/*
+ The links from cut cells to full neighbours: those faces in grid planes that have LAP_CELL_FULL on a side.
+
+ Outputs (each may be NULL; borrowed until the grid is freed): count; cells: count, the cut cell; faces: count, the face
+ between the two, rising; boxes: count, the number of the full box.
+
+ Errors: LAP_ERR_NULL_POINTER if grid is NULL, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: linear in the faces at the first
+ call, then none.
+ */
+int32_t lap_grid_full_links(const struct lap_grid *grid,
+                            int64_t *count,
+                            const int32_t **cells,
+                            const int32_t **faces,
+                            const int32_t **boxes);
+
+/*
+ The connected regions of fluid in the block. Cells and full boxes are connected through faces in grid planes, not along
+ edges or at vertices. Regions are numbered by their lowest box, then cell.
+
+ Outputs (each may be NULL; borrowed until the grid is freed): n_regions: the number of regions; count: the number of cut
+ cells; cell_regions: count, the region of each. For full boxes see lap_grid_box_region and lap_grid_region_runs.
+
+ Errors: LAP_ERR_NULL_POINTER if grid is NULL, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: a pass over the flags, and linear in
+ cells and faces, at the first call, then none.
+ */
+int32_t lap_grid_regions(const struct lap_grid *grid,
+                         int64_t *n_regions,
+                         int64_t *count,
+                         const int32_t **cell_regions);
+
+/*
+ The regions of all full boxes, as runs along x.
+
+ Outputs (each may be NULL; borrowed until the grid is freed): count: the number of rows of boxes, ny nz; row_runs: count + 1:
+ row j + ny k has the runs row_runs[row] up to, not including, row_runs[row + 1]; run_boxes: 2 per run: the boxes numbered
+ run_boxes[2 r] up to, not including, run_boxes[2 r + 1], all of them full, rising; run_regions: one per run.
+
+ Errors: LAP_ERR_NULL_POINTER if grid is NULL, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: as lap_grid_regions.
+ */
+int32_t lap_grid_region_runs(const struct lap_grid *grid,
+                             int64_t *count,
+                             const int32_t **row_runs,
+                             const int32_t **run_boxes,
+                             const int32_t **run_regions);
+
+/*
+ The region of a full box.
+
+ i, j, k: the box, from the block's low corner. region: receives its region, -1 if the box is not full (the cells of a
+ cut box may be in several).
+
+ Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BAD_ARGUMENT for a box outside the block, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: as
+ lap_grid_regions at the first call, then a binary search.
+ */
+int32_t lap_grid_box_region(const struct lap_grid *grid,
+                            int32_t i,
+                            int32_t j,
+                            int32_t k,
+                            int32_t *region);
+
+/*
+ The region that holds a point, exactly. A point on a grid plane belongs to the fluid around it.
+
+ region: receives a region from 0, or LAP_REGION_SOLID, LAP_REGION_SURFACE, LAP_REGION_BEYOND.
+
+ Errors: LAP_ERR_BAD_ARGUMENT if a coordinate is not finite; LAP_ERR_NULL_POINTER, LAP_ERR_OUT_OF_MEMORY,
+ LAP_ERR_BUSY. Cost: as lap_grid_regions at the first call; linear in the mesh's triangles, and in a cut box some hundred
+ microseconds for each cell of ordinary size.
+ */
+int32_t lap_grid_region_at(struct lap_context *context,
+                           const struct lap_grid *grid,
+                           double x,
+                           double y,
+                           double z,
+                           int32_t *region);
+
+/*
+ What belongs to a region, for example to the one that holds a given point (lap_grid_region_at).
+
+ region: from 0. Outputs (each may be NULL; valid until the next call with this context): n_cells: the number of cut cells;
+ cells: n_cells numbers, 1 for the region's cells, else 0; n_boxes: the number of boxes; boxes: n_boxes numbers, 1
+ for the region's full boxes, else 0.
+
+ Errors: LAP_ERR_BAD_ARGUMENT for a region that is not there; LAP_ERR_NULL_POINTER, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: as
+ lap_grid_regions at the first call; a byte per box, written.
+ */
+int32_t lap_grid_region_mask(struct lap_context *context,
+                             const struct lap_grid *grid,
+                             int32_t region,
+                             int64_t *n_cells,
+                             const uint8_t **cells,
+                             int64_t *n_boxes,
+                             const uint8_t **boxes);
+
+/*
+ Aggregates small cells: maps each cut cell to the cell or the full box that stands for it, so that the volume fractions of
+ what stands together add up to `minimum` at least, where that can be had. Each small aggregate merges across its
+ largest face in a grid plane (ties: the larger fraction beyond, then the lower face), small ones first, until it
+ suffices. The geometry stays as it is, and so do all other arrays.
+
+ Inputs (borrowed for the call): minimum: a volume fraction, from 0; closed_faces: a number per face in a grid plane, in the
+ order of lap_grid_plane_faces, not 0 where nothing may merge across it, or NULL; closed_cells: a number per cut cell, not 0
+ where it may merge with none, or NULL. Outputs (each may be NULL; valid until the next call with this context):
+ count: the number of cut cells; cells: count, the cell that stands for each (itself, for one that stands alone), or
+ LAP_CELL_FULL; boxes: count, the number of the box of that cell, or of the full box; n_small: how many aggregates stay below
+ the minimum; small: n_small cells that stand for them, rising.
+
+ Errors: LAP_ERR_BAD_ARGUMENT for a minimum that is negative or not finite; LAP_ERR_NULL_POINTER, LAP_ERR_OUT_OF_MEMORY,
+ LAP_ERR_BUSY. Cost: that of lap_grid_cell_moments at the first call; linear in the faces of small cells, times the few
+ rounds in which they merge.
+ */
+int32_t lap_grid_aggregate(struct lap_context *context,
+                           const struct lap_grid *grid,
+                           double minimum,
+                           const uint8_t *closed_faces,
+                           const uint8_t *closed_cells,
+                           int64_t *count,
+                           const int32_t **cells,
+                           const int32_t **boxes,
+                           int64_t *n_small,
+                           const int32_t **small);
 
 #ifdef __cplusplus
 }  // extern "C"

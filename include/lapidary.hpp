@@ -278,6 +278,15 @@ public:
         with.run(status);
     }
 
+    /* New coordinates on the same connectivity, three per vertex in the order of vertices(). What was borrowed before is
+       no longer valid; cuts and grids made before are not touched. After an error the mesh is unchanged. */
+    void update_coordinates(context &with, const std::vector<double> &xyz, const lap_mesh_options &options = mesh_options())
+    {
+        if (xyz.size() % 3 != 0) throw error(LAP_ERR_BAD_ARGUMENT, "xyz does not hold three numbers per vertex");
+        with.run(lap_mesh_update_coordinates(with.get(), handle_.get(), static_cast<std::int64_t>(xyz.size() / 3), xyz.data(),
+                                             &options));
+    }
+
     counts_t counts() const
     {
         counts_t n{};
@@ -322,6 +331,20 @@ public:
         std::int64_t euler = 0;
         check(lap_mesh_euler(get(), &euler));
         return euler;
+    }
+    /* LAP_PLACE_* for each point, three coordinates each. */
+    std::vector<std::int32_t> locate(context &with, const std::vector<double> &points) const
+    {
+        if (points.size() % 3 != 0) throw error(LAP_ERR_BAD_ARGUMENT, "points does not hold three numbers per point");
+        const std::int64_t count = static_cast<std::int64_t>(points.size() / 3);
+        const std::int32_t *places = nullptr;
+        with.run(lap_mesh_locate(with.get(), get(), count, points.data(), &places));
+        return {places, places + count};
+    }
+    /* One id per triangle, for keys of what is made from the mesh afterwards. */
+    void set_triangle_ids(context &with, const std::vector<std::int64_t> &ids)
+    {
+        with.run(lap_mesh_set_triangle_ids(with.get(), handle_.get(), static_cast<std::int64_t>(ids.size()), ids.data()));
     }
 
     const lap_mesh *get() const { return handle_.get(); }
@@ -684,6 +707,384 @@ private:
         void operator()(lap_certified *handle) const { lap_certified_free(handle); }
     };
     std::unique_ptr<lap_certified, free_it> handle_;
+};
+
+inline lap_grid_options grid_options()
+{
+    lap_grid_options options;
+    check(lap_grid_options_init(&options, static_cast<std::int32_t>(sizeof options)));
+    return options;
+}
+
+/* A block of a rectilinear grid, cut by a surface. */
+class grid {
+public:
+    struct block_t {
+        view<std::int64_t> boxes, first, total;
+        view<double> x, y, z;
+    };
+    struct counts_t {
+        std::int64_t empty, full, cut, cells, faces, walls, vertices;
+    };
+    struct cut_boxes_t {
+        view<std::int32_t> boxes, box_cells;
+    };
+    struct box_t {
+        std::int32_t flag, first, count;
+    };
+    struct vertices_t {
+        groups<double, 3> xyz;
+        view<std::uint8_t> on_planes;
+    };
+    struct faces_t {
+        view<std::int32_t> face_loops, loop_corners, corner_vertices;
+    };
+    struct walls_t {
+        view<std::int64_t> triangles;
+        view<std::int32_t> tags, cells;
+    };
+    struct plane_faces_t {
+        std::int64_t first;
+        view<std::int32_t> axes, nodes;
+        groups<std::int32_t, 2> cells;
+    };
+    struct cells_t {
+        view<std::int32_t> boxes, cell_shells, shell_faces, half_faces;
+
+        /* The half-faces of all the shells of a cell. */
+        view<std::int32_t> of(std::int64_t cell) const
+        {
+            const std::int32_t from = shell_faces[cell_shells[cell]];
+            return {half_faces.data + from, shell_faces[cell_shells[cell + 1]] - from};
+        }
+    };
+    struct cell_moments_t {
+        view<double> volumes, fractions;
+        groups<double, 3> centroids;
+        view<std::uint8_t> flags;
+    };
+    struct walls_moments_t {
+        groups<double, 3> area_vectors, centroids;
+    };
+    struct plane_face_moments_t {
+        view<double> areas, fractions;
+        groups<double, 3> centroids;
+        view<std::uint8_t> flags;
+    };
+    struct cell_tags_t {
+        rows<std::int32_t> tags;
+        /* By position in tags.items. */
+        groups<double, 3> area_vectors, centroids;
+    };
+    struct full_faces_t {
+        std::vector<std::int32_t> nodes;
+        std::vector<std::array<std::int32_t, 2>> boxes;
+    };
+    struct full_links_t {
+        view<std::int32_t> cells, faces, boxes;
+    };
+    struct regions_t {
+        std::int64_t count;
+        view<std::int32_t> cells;
+    };
+    struct region_runs_t {
+        view<std::int32_t> row_runs;
+        groups<std::int32_t, 2> boxes;
+        view<std::int32_t> regions;
+    };
+    struct mask_t {
+        std::vector<std::uint8_t> cells, boxes;
+    };
+    struct aggregates_t {
+        std::vector<std::int32_t> cells, boxes, small;
+    };
+    struct stage {
+        std::string name;
+        double seconds;
+    };
+
+    /* x, y, z: the coordinates of the whole grid's nodes; options: block, side of the fluid. */
+    grid(context &with, const mesh &solid, const std::vector<double> &x, const std::vector<double> &y,
+         const std::vector<double> &z, const lap_grid_options &options = grid_options())
+    {
+        lap_grid *made = nullptr;
+        const std::int32_t status = lap_grid_new(with.get(), solid.get(), size(x), x.data(), size(y), y.data(), size(z),
+                                                 z.data(), &options, &made);
+        handle_.reset(made);
+        with.run(status);
+    }
+
+    /* From the triangles that meet the block alone: lap_grid_new_patch. tags and ids: one per triangle, or none. */
+    grid(context &with, const std::vector<double> &xyz, const std::vector<std::int32_t> &indices,
+         const std::vector<std::int32_t> &tags, const std::vector<std::int64_t> &ids, const std::vector<double> &x,
+         const std::vector<double> &y, const std::vector<double> &z, const lap_grid_options &options)
+    {
+        if (xyz.size() % 3 != 0) throw error(LAP_ERR_BAD_ARGUMENT, "xyz does not hold three numbers per vertex");
+        if (indices.size() % 3 != 0) throw error(LAP_ERR_BAD_ARGUMENT, "indices does not hold three numbers per triangle");
+        const std::size_t triangles = indices.size() / 3;
+        if ((!tags.empty() && tags.size() != triangles) || (!ids.empty() && ids.size() != triangles)) {
+            throw error(LAP_ERR_BAD_ARGUMENT, "tags and ids do not hold one number per triangle");
+        }
+        lap_grid *made = nullptr;
+        const std::int32_t status = lap_grid_new_patch(
+            with.get(), size(xyz) / 3, xyz.data(), static_cast<std::int64_t>(triangles), indices.data(),
+            tags.empty() ? nullptr : tags.data(), ids.empty() ? nullptr : ids.data(), size(x), x.data(), size(y), y.data(),
+            size(z), z.data(), &options, &made);
+        handle_.reset(made);
+        with.run(status);
+    }
+
+    block_t block() const
+    {
+        block_t b{{nullptr, 3}, {nullptr, 3}, {nullptr, 3}, {}, {}, {}};
+        check(lap_grid_block(get(), &b.boxes.data, &b.first.data, &b.total.data, &b.x.data, &b.y.data, &b.z.data));
+        b.x.count = b.boxes[0] + 1;
+        b.y.count = b.boxes[1] + 1;
+        b.z.count = b.boxes[2] + 1;
+        return b;
+    }
+    counts_t counts() const
+    {
+        counts_t n{};
+        check(lap_grid_counts(get(), &n.empty, &n.full, &n.cut, &n.cells, &n.faces, &n.walls, &n.vertices));
+        return n;
+    }
+    /* LAP_BOX_* per box. */
+    view<std::uint8_t> flags() const
+    {
+        view<std::uint8_t> f;
+        check(lap_grid_flags(get(), &f.count, &f.data));
+        return f;
+    }
+    cut_boxes_t cut_boxes() const
+    {
+        cut_boxes_t b;
+        check(lap_grid_cut_boxes(get(), &b.boxes.count, &b.boxes.data, &b.box_cells.data));
+        b.box_cells.count = b.boxes.count + 1;
+        return b;
+    }
+    /* offsets[b] up to offsets[b + 1] are the cells of box b. */
+    view<std::int32_t> box_cells() const
+    {
+        view<std::int32_t> offsets;
+        check(lap_grid_box_cells(get(), &offsets.count, &offsets.data));
+        ++offsets.count;
+        return offsets;
+    }
+    box_t box(std::int32_t i, std::int32_t j, std::int32_t k) const
+    {
+        box_t b{};
+        check(lap_grid_box(get(), i, j, k, &b.flag, &b.first, &b.count));
+        return b;
+    }
+
+    vertices_t vertices() const
+    {
+        vertices_t v;
+        check(lap_grid_vertices(get(), &v.xyz.count, &v.xyz.data, &v.on_planes.data));
+        v.on_planes.count = v.xyz.count;
+        return v;
+    }
+    faces_t faces() const
+    {
+        faces_t f;
+        std::int64_t count = 0;
+        check(lap_grid_faces(get(), &count, &f.face_loops.data, &f.loop_corners.data, &f.corner_vertices.data));
+        f.face_loops.count = count + 1;
+        f.loop_corners.count = f.face_loops[count] + 1;
+        f.corner_vertices.count = f.loop_corners[f.face_loops[count]];
+        return f;
+    }
+    walls_t walls() const
+    {
+        walls_t w;
+        check(lap_grid_walls(get(), &w.cells.count, &w.triangles.data, &w.tags.data, &w.cells.data));
+        w.triangles.count = w.cells.count;
+        w.tags.count = w.tags.data == nullptr ? 0 : w.cells.count;
+        return w;
+    }
+    plane_faces_t plane_faces() const
+    {
+        plane_faces_t f{0, {nullptr, 4}, {}, {}};
+        check(lap_grid_plane_faces(get(), &f.first, &f.nodes.count, &f.axes.data, &f.nodes.data, &f.cells.data));
+        f.cells.count = f.nodes.count;
+        return f;
+    }
+    cells_t cells() const
+    {
+        cells_t c;
+        check(lap_grid_cells(get(), &c.boxes.count, &c.boxes.data, &c.cell_shells.data, &c.shell_faces.data,
+                             &c.half_faces.data));
+        c.cell_shells.count = c.boxes.count + 1;
+        c.shell_faces.count = c.cell_shells[c.boxes.count] + 1;
+        c.half_faces.count = c.shell_faces[c.cell_shells[c.boxes.count]];
+        return c;
+    }
+    /* The cut cells as an ordinary complex, borrowed from this grid. */
+    class complex complex() const
+    {
+        const lap_complex *borrowed = nullptr;
+        check(lap_grid_complex(get(), &borrowed));
+        return lapidary::complex(borrowed);
+    }
+    groups<std::int64_t, 2> vertex_keys() const
+    {
+        groups<std::int64_t, 2> k;
+        check(lap_grid_vertex_keys(get(), &k.count, &k.data));
+        return k;
+    }
+    groups<std::int64_t, 2> face_keys() const
+    {
+        groups<std::int64_t, 2> k;
+        check(lap_grid_face_keys(get(), &k.count, &k.data));
+        return k;
+    }
+
+    cell_moments_t cell_moments() const
+    {
+        cell_moments_t m;
+        check(lap_grid_cell_moments(get(), &m.volumes.count, &m.volumes.data, &m.fractions.data, &m.centroids.data,
+                                    &m.flags.data));
+        m.fractions.count = m.centroids.count = m.flags.count = m.volumes.count;
+        return m;
+    }
+    walls_moments_t cell_boundaries() const
+    {
+        walls_moments_t m;
+        check(lap_grid_cell_boundaries(get(), &m.centroids.count, &m.area_vectors.data, &m.centroids.data));
+        m.area_vectors.count = m.centroids.count;
+        return m;
+    }
+    plane_face_moments_t plane_face_moments() const
+    {
+        plane_face_moments_t m;
+        check(lap_grid_plane_face_moments(get(), &m.areas.count, &m.areas.data, &m.fractions.data, &m.centroids.data,
+                                          &m.flags.data));
+        m.fractions.count = m.centroids.count = m.flags.count = m.areas.count;
+        return m;
+    }
+    walls_moments_t wall_moments() const
+    {
+        walls_moments_t m;
+        check(lap_grid_wall_moments(get(), &m.centroids.count, &m.area_vectors.data, &m.centroids.data));
+        m.area_vectors.count = m.centroids.count;
+        return m;
+    }
+    rows<std::int32_t> cell_walls() const
+    {
+        rows<std::int32_t> r;
+        check(lap_grid_cell_walls(get(), &r.count, &r.offsets, &r.items));
+        return r;
+    }
+    cell_tags_t cell_tags() const
+    {
+        cell_tags_t t;
+        check(lap_grid_cell_tags(get(), &t.tags.count, &t.tags.offsets, &t.tags.items, &t.area_vectors.data,
+                                 &t.centroids.data));
+        t.area_vectors.count = t.centroids.count = t.tags.offsets[t.tags.count];
+        return t;
+    }
+
+    full_links_t full_links() const
+    {
+        full_links_t l;
+        check(lap_grid_full_links(get(), &l.cells.count, &l.cells.data, &l.faces.data, &l.boxes.data));
+        l.faces.count = l.boxes.count = l.cells.count;
+        return l;
+    }
+    /* Copied, since the context keeps them for one call only. */
+    full_faces_t full_faces(context &with, std::int32_t axis, std::int32_t node) const
+    {
+        std::int64_t count = 0;
+        const std::int32_t *nodes = nullptr, *boxes = nullptr;
+        with.run(lap_grid_full_faces(with.get(), get(), axis, node, &count, &nodes, &boxes));
+        full_faces_t f;
+        f.nodes.assign(nodes, nodes + count);
+        for (std::int64_t i = 0; i < count; ++i) f.boxes.push_back({boxes[2 * i], boxes[2 * i + 1]});
+        return f;
+    }
+    regions_t regions() const
+    {
+        regions_t r{};
+        check(lap_grid_regions(get(), &r.count, &r.cells.count, &r.cells.data));
+        return r;
+    }
+    region_runs_t region_runs() const
+    {
+        region_runs_t r;
+        std::int64_t count = 0;
+        check(lap_grid_region_runs(get(), &count, &r.row_runs.data, &r.boxes.data, &r.regions.data));
+        r.row_runs.count = count + 1;
+        r.boxes.count = r.regions.count = r.row_runs[count];
+        return r;
+    }
+    /* Of a full box; -1 for others. */
+    std::int32_t box_region(std::int32_t i, std::int32_t j, std::int32_t k) const
+    {
+        std::int32_t region = -1;
+        check(lap_grid_box_region(get(), i, j, k, &region));
+        return region;
+    }
+    /* A region, or LAP_REGION_*. */
+    std::int32_t region_at(context &with, double x, double y, double z) const
+    {
+        std::int32_t region = -1;
+        with.run(lap_grid_region_at(with.get(), get(), x, y, z, &region));
+        return region;
+    }
+    mask_t region_mask(context &with, std::int32_t region) const
+    {
+        std::int64_t n_cells = 0, n_boxes = 0;
+        const std::uint8_t *cells = nullptr, *boxes = nullptr;
+        with.run(lap_grid_region_mask(with.get(), get(), region, &n_cells, &cells, &n_boxes, &boxes));
+        return {{cells, cells + n_cells}, {boxes, boxes + n_boxes}};
+    }
+    /* Marks: one per face in a grid plane, and one per cut cell, or none. */
+    aggregates_t aggregate(context &with, double minimum, const std::vector<std::uint8_t> &closed_faces = {},
+                           const std::vector<std::uint8_t> &closed_cells = {}) const
+    {
+        const counts_t n = counts();
+        if (!closed_faces.empty() && size(closed_faces) != n.faces - n.walls) {
+            throw error(LAP_ERR_BAD_ARGUMENT, "closed_faces does not hold one number per face in a grid plane");
+        }
+        if (!closed_cells.empty() && size(closed_cells) != n.cells) {
+            throw error(LAP_ERR_BAD_ARGUMENT, "closed_cells does not hold one number per cell");
+        }
+        std::int64_t count = 0, n_small = 0;
+        const std::int32_t *cells = nullptr, *boxes = nullptr, *small = nullptr;
+        with.run(lap_grid_aggregate(with.get(), get(), minimum, closed_faces.empty() ? nullptr : closed_faces.data(),
+                                    closed_cells.empty() ? nullptr : closed_cells.data(), &count, &cells, &boxes,
+                                    &n_small, &small));
+        return {{cells, cells + count}, {boxes, boxes + count}, {small, small + n_small}};
+    }
+    void check_consistency(context &with) const { with.run(lap_grid_check(with.get(), get())); }
+
+    std::vector<stage> stages() const
+    {
+        std::int32_t count = 0;
+        check(lap_grid_stage_count(get(), &count));
+        std::vector<stage> all;
+        for (std::int32_t i = 0; i < count; ++i) {
+            const char *name = "";
+            double seconds = 0;
+            check(lap_grid_stage(get(), i, &name, &seconds));
+            all.push_back({name, seconds});
+        }
+        return all;
+    }
+
+    const lap_grid *get() const { return handle_.get(); }
+
+private:
+    template <class T>
+    static std::int64_t size(const std::vector<T> &v)
+    {
+        return static_cast<std::int64_t>(v.size());
+    }
+    struct free_it {
+        void operator()(lap_grid *handle) const { lap_grid_free(handle); }
+    };
+    std::unique_ptr<lap_grid, free_it> handle_;
 };
 
 } // namespace lapidary

@@ -255,6 +255,54 @@ static void views(lap_context *context)
     STATUS(LAP_OK, lap_mesh_free(mesh));
 }
 
+static void moved_coordinates(lap_context *context)
+{
+    const double planes[4] = {1, 0, 0, -2};
+    double xyz[48], bad[48];
+    const double *held = NULL, *bounds = NULL;
+    const char *exact = NULL;
+    const lap_complex *complex = NULL;
+    double volume = 0;
+    int64_t cells = 0;
+    lap_cut *cut = NULL;
+    lap_mesh *mesh = good_mesh(context, 16, hollow_xyz, 24, hollow_indices, NULL);
+    int i;
+    for (i = 0; i < 48; ++i) bad[i] = xyz[i] = 2 * hollow_xyz[i];
+    STATUS(LAP_OK, lap_mesh_volume(mesh, &volume));
+    CHECK(volume == 56);
+
+    /* A cut keeps the mesh that it was made from. */
+    STATUS_IN(context, LAP_OK, lap_cut_new(context, mesh, 1, planes, NULL, &cut));
+    STATUS_IN(context, LAP_OK, lap_mesh_update_coordinates(context, mesh, 16, xyz, NULL));
+    STATUS(LAP_OK, lap_mesh_volume(mesh, &volume));
+    CHECK(volume == 448);
+    STATUS_IN(context, LAP_OK, lap_mesh_volume_exact(context, mesh, &exact));
+    CHECK(strcmp(exact, "448") == 0);
+    STATUS(LAP_OK, lap_mesh_bounds(mesh, &bounds));
+    CHECK(bounds[0] == 0 && bounds[5] == 8);
+    STATUS(LAP_OK, lap_cut_complex(cut, &complex));
+    STATUS(LAP_OK, lap_complex_counts(complex, NULL, NULL, NULL, &cells));
+    CHECK(cells == 2);
+    STATUS(LAP_OK, lap_complex_check(context, complex));
+    STATUS(LAP_OK, lap_cut_free(cut));
+
+    /* The mesh is as good as a new one. */
+    STATUS_IN(context, LAP_OK, lap_cut_new(context, mesh, 1, planes, NULL, &cut));
+    STATUS(LAP_OK, lap_cut_free(cut));
+
+    /* After an error it is as it was. */
+    bad[4] = NAN;
+    STATUS_IN(context, LAP_ERR_BAD_MESH, lap_mesh_update_coordinates(context, mesh, 16, bad, NULL));
+    CHECK(has_defect(context, LAP_DEFECT_NON_FINITE_COORDINATE, 1, -1, -1));
+    STATUS_IN(context, LAP_ERR_BAD_ARGUMENT, lap_mesh_update_coordinates(context, mesh, 15, xyz, NULL));
+    STATUS_IN(context, LAP_ERR_NULL_POINTER, lap_mesh_update_coordinates(context, mesh, 16, NULL, NULL));
+    STATUS_IN(context, LAP_ERR_NULL_POINTER, lap_mesh_update_coordinates(context, NULL, 16, xyz, NULL));
+    STATUS(LAP_ERR_NULL_POINTER, lap_mesh_update_coordinates(NULL, mesh, 16, xyz, NULL));
+    STATUS(LAP_OK, lap_mesh_vertices(mesh, NULL, &held, NULL));
+    CHECK(memcmp(held, xyz, sizeof xyz) == 0);
+    STATUS(LAP_OK, lap_mesh_free(mesh));
+}
+
 static void places(lap_context *context)
 {
     /* A cube [0, 4]^3 with a void [1, 3]^3: in the wall, in the void, on both surfaces, on a line with edges, far away. */
@@ -289,6 +337,7 @@ void test_mesh(void)
     arguments(context);
     defects(context);
     views(context);
+    moved_coordinates(context);
     places(context);
     STATUS(LAP_OK, lap_context_free(context));
 }

@@ -1,6 +1,7 @@
 //! Compressed sparse rows: everything of varying length lives in one flat array with offsets, filled by
 //! count, prefix sum, fill. No per-element `Vec`.
 
+use super::parallel;
 use rayon::prelude::*;
 
 /// What can index a row.
@@ -95,6 +96,24 @@ impl<T> Csr<T> {
 
     pub fn rows(&self) -> impl Iterator<Item = &[T]> {
         (0..self.len()).map(|i| self.row(i))
+    }
+
+    /// The rows of all parts behind one another.
+    pub fn concat(mut parts: Vec<Self>) -> Self
+    where
+        T: Copy + Send + Sync,
+    {
+        if parts.len() == 1 {
+            return parts.pop().expect("one part");
+        }
+        let first = parallel::offsets(parts.iter().map(|p| p.items.len()));
+        // The last part is the end of all.
+        let lengths: Vec<usize> = parts.iter().map(Self::len).chain([1]).collect();
+        let offsets = parallel::write_parts(&lengths, |i, out| match parts.get(i) {
+            Some(part) => out.extend(part.offsets[..part.len()].iter().map(|o| o + first[i] as u32)),
+            None => out.push(first[i] as u32),
+        });
+        Self { offsets, items: parallel::concat(parts.into_iter().map(|p| p.items).collect()) }
     }
 
     /// Sorts `(row, item)` pairs into rows, keeping the order of the pairs within a row (a counting sort).

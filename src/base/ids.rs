@@ -66,4 +66,6 @@ ids! {
     BoxId,
     /// A node of a block of a rectilinear grid: i + (nx + 1)·(j + (ny + 1)·k).
     NodeId,
+    /// A connected region of fluid in a block of a grid.
+    RegionId,
 }

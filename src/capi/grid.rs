@@ -6,6 +6,7 @@ use super::context::{State, c_string, lap_context, with_context};
 use super::derived::on_demand;
 use super::grid_boxes::{Boxes, Shape};
 use super::grid_cells::Views;
+use super::grid_fluid::Fluid;
 use super::grid_moments::Arrays;
 use super::guard::{Host, guard};
 use super::keys::Keyed;
@@ -72,6 +73,7 @@ pub struct lap_grid {
     pub boxes: Boxes,
     pub views: Views,
     pub arrays: Arrays,
+    pub fluid: Fluid,
 }
 
 impl lap_grid {
@@ -98,6 +100,7 @@ impl lap_grid {
             complex: OnceLock::new(),
             views: Views::default(),
             arrays: Arrays::default(),
+            fluid: Fluid::default(),
         })
     }
 }

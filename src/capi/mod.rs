@@ -20,6 +20,7 @@ mod fpenv;
 pub mod grid;
 pub mod grid_boxes;
 pub mod grid_cells;
+pub mod grid_fluid;
 pub mod grid_moments;
 mod guard;
 pub mod keys;

@@ -1,6 +1,6 @@
 //! Between our arrays and C's pointers. All raw writes of the C boundary go through `put`.
 
-use crate::base::{BoxId, CellId, ComponentId, EdgeId, FaceId, NodeId, PlaneId, Status, VertexId};
+use crate::base::{BoxId, CellId, ComponentId, EdgeId, FaceId, NodeId, PlaneId, RegionId, Status, VertexId};
 use crate::complex::{HalfCorner, HalfFace, Key};
 
 /// Writes through an output pointer, unless the caller does not want that output.
@@ -30,6 +30,7 @@ unsafe impl ReadAs<i32> for ComponentId {}
 unsafe impl ReadAs<i32> for FaceId {}
 unsafe impl ReadAs<i32> for BoxId {}
 unsafe impl ReadAs<i32> for NodeId {}
+unsafe impl ReadAs<i32> for RegionId {}
 unsafe impl ReadAs<i32> for HalfFace {}
 unsafe impl ReadAs<i32> for HalfCorner {}
 unsafe impl ReadAs<i64> for i64 {}

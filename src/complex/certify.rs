@@ -8,14 +8,14 @@
 //! Invariant of the result: the triangles of every cell close, whatever was merged. If the report says so, it is free of
 //! defects. Cost: the check, about as much as the cut; repairs some milliseconds each.
 
-use super::certify_check::{Surface, contacts, volume_sign};
+use super::certify_check::{Surface, contacts, star_shaped, volume_sign};
 use super::certify_repair::{Defect, LEVELS, Mender};
 use super::certify_work::Work;
 use super::data::{Complex, Origin};
 use super::triangulate::triangulated;
 use crate::base::{CellId, Csr, Error, FaceId, Result, Run, ShellId, TriangleId, VertexId};
 use crate::exact::Sign;
-use crate::mesh::bvh::{Bvh, build_bvh};
+use crate::mesh::bvh::build_bvh;
 use rayon::prelude::*;
 
 /// How often a repair may start again from what the check after it still finds.
@@ -88,9 +88,11 @@ pub fn certify(c: &Complex, options: &CertifyOptions, run: &mut Run) -> Result<C
     let exact = |t: &[VertexId; 3]| !options.check_input && t.iter().all(|v| mesh[v.at()]);
     let mut marked: Vec<bool> = work.triangles.iter().map(|t| !exact(t)).collect();
     run.stage("check", 0.1)?;
-    let mut bvh = build_bvh(&work.coords, &work.triangles);
-    let mut defects = find(&work, &bvh, &marked);
-    let mut shells = if defects.is_empty() { open_shells(c, &work) } else { Vec::new() };
+    let sides: Vec<[CellId; 2]> = work.face.iter().map(|f| c.face_cells[f.at()]).collect();
+    // Input that intersects itself has no exact cells to start from.
+    let proven = if options.check_input { Vec::new() } else { proven_cells(c, &work, &sides) };
+    let mut defects = find_first(&work, &sides, &proven, &marked, options.check_input);
+    let mut shells = if defects.is_empty() { open_shells(c, &work, &proven) } else { Vec::new() };
     let flat_before = defects.iter().filter(|[a, b]| a == b).count();
     let unit = unit(c);
     let mut report = CertifyReport {
@@ -100,14 +102,16 @@ pub fn certify(c: &Complex, options: &CertifyOptions, run: &mut Run) -> Result<C
         unit,
         ..Default::default()
     };
+    let mut bvh = None;
     for pass in 0..PASSES {
         if options.check_only || defects.is_empty() {
             break;
         }
+        let old = bvh.take().unwrap_or_else(|| build_bvh(&work.coords, &work.triangles));
         run.stage("repair", 0.4 + 0.1 * pass as f64)?;
         marked.iter_mut().for_each(|m| *m = false);
         defects.iter().flatten().for_each(|t| marked[t.at()] = true);
-        let mut mender = Mender::new(c, &mut work, &bvh, &mesh, fixed, unit, std::mem::take(&mut defects));
+        let mut mender = Mender::new(c, &mut work, &old, &mesh, fixed, unit, std::mem::take(&mut defects));
         for level in 0..LEVELS {
             if mender.defects.is_empty() {
                 break;
@@ -117,9 +121,20 @@ pub fn certify(c: &Complex, options: &CertifyOptions, run: &mut Run) -> Result<C
         }
         mender.touched.iter().for_each(|t| marked[t.at()] = true);
         run.stage("check again", 0.45 + 0.1 * pass as f64)?;
-        bvh = build_bvh(&work.coords, &work.triangles);
-        defects = find(&work, &bvh, &marked);
-        shells = if defects.is_empty() { open_shells(c, &work) } else { Vec::new() };
+        let new = build_bvh(&work.coords, &work.triangles);
+        marked.iter_mut().zip(&work.alive).for_each(|(m, a)| *m &= *a);
+        let (sides, proven) = Default::default();
+        let surface = Surface {
+            coords: &work.coords,
+            triangles: &work.triangles,
+            alive: &work.alive,
+            marked: &marked,
+            sides,
+            proven,
+        };
+        defects = contacts(&surface, &new);
+        bvh = Some(new);
+        shells = if defects.is_empty() { open_shells(c, &work, &[]) } else { Vec::new() };
     }
     run.stage("number", 0.95)?;
     report.open_faces =
@@ -143,31 +158,61 @@ fn unit(c: &Complex) -> f64 {
     if up.is_finite() { up } else { largest - largest.next_down() }
 }
 
-fn find(w: &Work, bvh: &Bvh, marked: &[bool]) -> Vec<Defect> {
-    let marked: Vec<bool> = marked.iter().zip(&w.alive).map(|(m, a)| *m && *a).collect();
-    contacts(&Surface { coords: &w.coords, triangles: &w.triangles, alive: &w.alive, marked: &marked }, bvh)
+/// The cells that are seen whole from a point inside.
+fn proven_cells(c: &Complex, w: &Work, sides: &[[CellId; 2]]) -> Vec<bool> {
+    let both = sides.iter().enumerate().flat_map(|(t, &[behind, before])| {
+        let t = TriangleId::of(t);
+        [(behind, (t, false)), (before, (t, true))].into_iter().filter(|x| x.0.is_some())
+    });
+    let rows = Csr::from_pairs(c.cell_count(), both.map(|(k, side)| (k.at(), side)));
+    let size = c.mesh.bbox.iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
+    let proven = |k: usize| {
+        c.cell_shells[k + 1] - c.cell_shells[k] == 1
+            && star_shaped(&w.coords, size, rows.row(k).iter().map(|&side| outward(w, side)))
+    };
+    (0..c.cell_count()).into_par_iter().with_min_len(64).map(proven).collect()
 }
 
-/// The shells whose volume does not have its sign: outer ones positive, voids negative.
-fn open_shells(c: &Complex, w: &Work) -> Vec<ShellId> {
+fn outward(w: &Work, (t, front): (TriangleId, bool)) -> [VertexId; 3] {
+    let [a, b, c] = w.triangles[t.at()];
+    if front { [a, c, b] } else { [a, b, c] }
+}
+
+/// All defects of a complex that nothing has changed yet. Only triangles at cells that are not proven, or at the outside, come
+/// into the hierarchy.
+fn find_first(w: &Work, sides: &[[CellId; 2]], proven: &[bool], marked: &[bool], all_pairs: bool) -> Vec<Defect> {
+    let whole = Surface { coords: &w.coords, triangles: &w.triangles, alive: &w.alive, marked, sides, proven };
+    let open = |t: &usize| sides[*t].iter().any(|k| whole.is_open(*k));
+    let some: Vec<TriangleId> = (0..w.triangles.len()).filter(open).map(TriangleId::of).collect();
+    let triangles: Vec<[VertexId; 3]> = some.iter().map(|t| w.triangles[t.at()]).collect();
+    let marked: Vec<bool> = some.iter().map(|t| marked[t.at()]).collect();
+    let sides: Vec<[CellId; 2]> = if all_pairs { Vec::new() } else { some.iter().map(|t| sides[t.at()]).collect() };
+    let bvh = build_bvh(&w.coords, &triangles);
+    let alive = vec![true; some.len()];
+    let part = Surface { triangles: &triangles, alive: &alive, marked: &marked, sides: &sides, ..whole };
+    contacts(&part, &bvh).into_iter().map(|d| d.map(|t| some[t.at()])).collect()
+}
+
+/// The shells whose volume does not have its sign: outer ones positive, voids negative. Those of proven cells have.
+fn open_shells(c: &Complex, w: &Work, proven: &[bool]) -> Vec<ShellId> {
+    let mut expected = vec![Sign::Zero; c.shell_faces.len()];
+    for k in (0..c.cell_count()).filter(|&k| !proven.get(k).is_some_and(|p| *p)) {
+        let (first, end) = (c.cell_shells[k] as usize, c.cell_shells[k + 1] as usize);
+        expected[first..end].fill(Sign::Negative);
+        expected[first] = Sign::Positive;
+    }
+    let asked = |s: ShellId| s.is_some() && !expected[s.at()].is_zero();
     let sides = (0..w.triangles.len()).filter(|&t| w.alive[t]).flat_map(|t| {
         let [behind, before] = w.shells[t];
         [(behind, (TriangleId::of(t), false)), (before, (TriangleId::of(t), true))]
     });
-    let sides = sides.filter(|x| x.0.is_some()).map(|(s, side)| (s.at(), side));
+    let sides = sides.filter(|x| asked(x.0)).map(|(s, side)| (s.at(), side));
     let rows = Csr::from_pairs(c.shell_faces.len(), sides);
-    let mut outer = vec![false; c.shell_faces.len()];
-    c.cell_shells[..c.cell_count()].iter().for_each(|&s| outer[s as usize] = true);
     let wrong = |s: &usize| {
         let row = rows.row(*s);
-        let corners = row.iter().map(|&(t, front)| {
-            let [a, b, d] = w.triangles[t.at()];
-            if front { [a, d, b] } else { [a, b, d] }
-        });
-        let expected = if outer[*s] { Sign::Positive } else { Sign::Negative };
-        !row.is_empty() && volume_sign(&w.coords, corners) != expected
+        !row.is_empty() && volume_sign(&w.coords, row.iter().map(|&side| outward(w, side))) != expected[*s]
     };
-    (0..c.shell_faces.len()).into_par_iter().filter(wrong).map(ShellId::of).collect()
+    (0..c.shell_faces.len()).into_par_iter().with_min_len(64).filter(wrong).map(ShellId::of).collect()
 }
 
 /// Numbers what is left, and finishes the report.

@@ -19,7 +19,7 @@
 //! other's boxes. Cost: some hundred pairs of triangles for each attempt; most attempts end with the pairs in contact.
 
 use super::certify_check::{apart, degenerate};
-use super::certify_work::Work;
+use super::certify_work::{Work, sort_corners};
 use super::data::Complex;
 use crate::base::{Csr, TriangleId, UnionFind, VertexId};
 use crate::mesh::bvh::Bvh;
@@ -254,17 +254,34 @@ impl<'a> Mender<'a> {
         let [from, to] = [u, v].map(|z| self.work.coords[z.at()]);
         let allowed = if low < SLIVER * length(minus(from, to)) { before + SLACK } else { before };
         let now = self.weigh_again(&changed, allowed + 1);
-        // An edge that is there already would be one too many.
-        let exists = |m: &Self| {
-            m.pairs.iter().flatten().any(|t| {
+        // An edge that is there already would be one too many, unless both triangles are: then four add up to what
+        // is left of a flat piece of a cell.
+        let with_edge = |m: &Self| {
+            let other = |t: &&TriangleId| {
                 let corners = &m.work.triangles[t.at()];
                 !changed.contains(t) && corners.contains(&x) && corners.contains(&y)
-            })
+            };
+            let mut found: Vec<TriangleId> = m.pairs.iter().flatten().filter(other).copied().collect();
+            found.sort_unstable();
+            found.dedup();
+            found
         };
-        if (now < before || now <= allowed && height(self) > low) && !exists(self) {
+        let mut there = with_edge(self);
+        if there.is_empty() && (now < before || now <= allowed && height(self) > low) {
             self.join_rings(a, b);
             self.changed.extend(changed);
             return true;
+        }
+        let sorted = |m: &Self, t: TriangleId| sort_corners(m.work.triangles[t.at()]).0;
+        let new = changed.map(|t| sorted(self, t));
+        there.retain(|&t| new.contains(&sorted(self, t)));
+        if there.len() == 2 {
+            there.extend(changed);
+            there.sort_unstable();
+            if self.work.add_up(&there, |v| v, &mut self.changed) {
+                there.iter().for_each(|&t| self.join_rings(a, t));
+                return true;
+            }
         }
         (self.work.triangles[a.at()], self.work.triangles[b.at()]) = (p, q);
         false

@@ -61,11 +61,26 @@ impl Work {
     /// changed are appended to `changed`. False, and nothing changes, if that would not leave a complex.
     pub fn merge(&mut self, group: &[VertexId], around: &[TriangleId], changed: &mut Vec<TriangleId>) -> bool {
         let into = group[0];
-        let renamed = |v: VertexId| if group.contains(&v) { into } else { v };
+        let done = self.add_up(around, |v| if group.contains(&v) { into } else { v }, changed);
+        if done {
+            for &v in group {
+                self.merged[v.at()] = into;
+            }
+        }
+        done
+    }
+
+    /// Renames the corners of `some` triangles (rising) and adds up those that are equal then.
+    pub fn add_up(
+        &mut self,
+        some: &[TriangleId],
+        renamed: impl Fn(VertexId) -> VertexId,
+        changed: &mut Vec<TriangleId>,
+    ) -> bool {
         // Sorted corners, whether sorting kept the orientation, triangle.
-        let mut left: Vec<([VertexId; 3], bool, TriangleId)> = Vec::new();
-        for &t in around {
-            let [a, b, c] = self.triangles[t.at()].map(renamed);
+        let mut left: Vec<([VertexId; 3], bool, TriangleId)> = Vec::with_capacity(some.len());
+        for &t in some {
+            let [a, b, c] = self.triangles[t.at()].map(&renamed);
             if a != b && b != c && c != a {
                 let (sorted, even) = sort_corners([a, b, c]);
                 left.push((sorted, even, t));
@@ -73,28 +88,21 @@ impl Work {
         }
         left.sort_unstable_by_key(|&(corners, _, t)| (corners, t));
         // For each set of equal triangles, the shells behind and before what is left of them.
-        let mut sums: Vec<(usize, Option<[ShellId; 2]>)> = Vec::new();
-        let mut i = 0;
-        while i < left.len() {
-            let end = i + left[i..].iter().take_while(|x| x.0 == left[i].0).count();
-            let Some(sum) = self.sum(&left[i..end]) else { return false };
-            sums.push((i, sum));
-            i = end;
+        let mut sums: Vec<(TriangleId, bool, Option<[ShellId; 2]>)> = Vec::with_capacity(left.len());
+        for equal in left.chunk_by(|x, y| x.0 == y.0) {
+            let Some(sum) = self.sum(equal) else { return false };
+            sums.push((equal[0].2, equal[0].1, sum));
         }
-        for &t in around {
+        for &t in some {
             self.alive[t.at()] = false;
         }
-        for (start, sum) in sums {
+        for (t, even, sum) in sums {
             let Some([behind, before]) = sum else { continue };
             // The lowest stands for all, looking its own way.
-            let (_, even, t) = left[start];
             self.shells[t.at()] = if even { [behind, before] } else { [before, behind] };
-            self.triangles[t.at()] = self.triangles[t.at()].map(renamed);
+            self.triangles[t.at()] = self.triangles[t.at()].map(&renamed);
             self.alive[t.at()] = true;
             changed.push(t);
-        }
-        for &v in group {
-            self.merged[v.at()] = into;
         }
         true
     }

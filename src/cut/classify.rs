@@ -12,6 +12,7 @@
 //!
 //! Cost: |V|·(Σ log m over families + single planes); crossings grow with their number.
 
+use crate::base::parallel::{concat, map_ranges};
 use crate::base::{Csr, EdgeId, PlaneId, VertexId};
 use crate::exact::{self, Direction, Plane, PlaneFilter, Sign, counters};
 use crate::mesh::TriMesh;
@@ -306,20 +307,24 @@ pub fn classify(mesh: &TriMesh, knives: &Knives) -> Classified {
     fill_slabs(mesh, knives, &mut sides);
     fill_masks(mesh, knives, &mut sides);
     let vertex_knives = knives_through(count, knives, &sides);
-    let mut edge_crossings = Csr::with_capacity(mesh.edges.len(), mesh.edges.len() / 4);
-    let mut edges_on = Vec::new();
-    for (e, &[a, b]) in mesh.edges.iter().enumerate() {
-        let (from, to) = ((sides.slabs_of(a), sides.masks_of(a)), (sides.slabs_of(b), sides.masks_of(b)));
-        each_crossing(knives, from, to, |knife, sign| {
-            edge_crossings.items.push(Crossing { knife, low_positive: sign == Sign::Positive });
-        });
-        edge_crossings.end_row();
-        let (on_a, on_b) = (vertex_knives.row(a), vertex_knives.row(b));
-        if !on_a.is_empty() && !on_b.is_empty() {
-            each_common(on_a, on_b, |k| edges_on.push((EdgeId::of(e), k)));
+    let parts = map_ranges(mesh.edges.len(), CHUNK, |range| {
+        let mut crossings = Csr::with_capacity(range.len(), range.len() / 4);
+        let mut on = Vec::new();
+        for (e, &[a, b]) in range.clone().zip(&mesh.edges[range]) {
+            let (from, to) = ((sides.slabs_of(a), sides.masks_of(a)), (sides.slabs_of(b), sides.masks_of(b)));
+            each_crossing(knives, from, to, |knife, sign| {
+                crossings.items.push(Crossing { knife, low_positive: sign == Sign::Positive });
+            });
+            crossings.end_row();
+            let (on_a, on_b) = (vertex_knives.row(a), vertex_knives.row(b));
+            if !on_a.is_empty() && !on_b.is_empty() {
+                each_common(on_a, on_b, |k| on.push((EdgeId::of(e), k)));
+            }
         }
-    }
-    Classified { sides, vertex_knives, edge_crossings, edges_on }
+        (crossings, on)
+    });
+    let (crossings, on) = parts.into_iter().unzip();
+    Classified { sides, vertex_knives, edge_crossings: Csr::concat(crossings), edges_on: concat(on) }
 }
 
 fn fill_slabs(mesh: &TriMesh, knives: &Knives, sides: &mut Sides) {
@@ -400,13 +405,15 @@ fn fill_masks(mesh: &TriMesh, knives: &Knives, sides: &mut Sides) {
 }
 
 fn knives_through(count: usize, knives: &Knives, sides: &Sides) -> Csr<KnifeId> {
-    let mut rows = Csr::with_capacity(count, 0);
-    for v in 0..count {
-        let v = VertexId::of(v);
-        each_through(knives, (sides.slabs_of(v), sides.masks_of(v)), |k| rows.items.push(k));
-        rows.end_row();
-    }
-    rows
+    let parts = map_ranges(count, CHUNK, |range| {
+        let mut rows = Csr::with_capacity(range.len(), 0);
+        for v in range.map(VertexId::of) {
+            each_through(knives, (sides.slabs_of(v), sides.masks_of(v)), |k| rows.items.push(k));
+            rows.end_row();
+        }
+        rows
+    });
+    Csr::concat(parts)
 }
 
 /// Calls `hit` for the common members of two rising lists.

@@ -8,10 +8,12 @@
 //! Cost: the number of crossings, and a comparison of planes of unlike families per exchange of neighbours.
 
 use super::classify::{Classified, KnifeId, Knives, each_common};
+use crate::base::parallel::{concat, map_ranges, offsets, write_parts};
 use crate::base::{Csr, EdgeId};
 use crate::exact::{self, counters};
 use crate::mesh::TriMesh;
 use std::cmp::Ordering;
+use std::ops::Range;
 
 #[derive(Debug, Default)]
 pub struct EdgePoints {
@@ -28,18 +30,44 @@ pub struct EdgePoints {
 }
 
 pub fn edge_points(mesh: &TriMesh, knives: &Knives, classified: &Classified) -> EdgePoints {
+    let parts = map_ranges(mesh.edges.len(), 1 << 12, |range| points_of(mesh, knives, classified, range));
+    let first = offsets(parts.iter().map(|p| p.edge.len()));
+    let mut all = EdgePoints::default();
+    let mut sets = Vec::with_capacity(parts.len());
+    let (mut firsts, mut ranks, mut edges, mut leads) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    for part in parts {
+        firsts.push(part.first);
+        ranks.push(part.rank);
+        sets.push(part.knives);
+        edges.push(part.edge);
+        leads.push(part.lead);
+    }
+    // A part's own `first` begins with 0, and ends with what the next one begins with.
+    let lengths: Vec<usize> = firsts.iter().map(|f| f.len() - 1).chain([1]).collect();
+    all.first = write_parts(&lengths, |i, out| match firsts.get(i) {
+        Some(part) => out.extend(part[..part.len() - 1].iter().map(|f| f + first[i] as u32)),
+        None => out.push(first[i] as u32),
+    });
+    (all.rank, all.knives, all.edge, all.lead) = (concat(ranks), Csr::concat(sets), concat(edges), concat(leads));
+    all
+}
+
+/// The points of some consecutive edges, numbered from 0.
+fn points_of(mesh: &TriMesh, knives: &Knives, classified: &Classified, edges: Range<usize>) -> EdgePoints {
     let crossings = &classified.edge_crossings;
+    let first_crossing = crossings.offsets[edges.start] as usize;
+    let count = crossings.offsets[edges.end] as usize - first_crossing;
     let mut out = EdgePoints {
-        first: Vec::with_capacity(mesh.edges.len() + 1),
-        rank: vec![0; crossings.items.len()],
-        knives: Csr::with_capacity(crossings.items.len(), crossings.items.len()),
-        edge: Vec::with_capacity(crossings.items.len()),
-        lead: Vec::with_capacity(crossings.items.len()),
+        first: Vec::with_capacity(edges.len() + 1),
+        rank: vec![0; count],
+        knives: Csr::with_capacity(count, count),
+        edge: Vec::with_capacity(count),
+        lead: Vec::with_capacity(count),
     };
     out.first.push(0);
     let mut order: Vec<u32> = Vec::new();
     let mut group: Vec<KnifeId> = Vec::new();
-    for (e, &[a, b]) in mesh.edges.iter().enumerate() {
+    for (e, &[a, b]) in edges.clone().zip(&mesh.edges[edges]) {
         let range = crossings.range(e);
         if range.is_empty() {
             out.first.push(out.edge.len() as u32);
@@ -72,7 +100,7 @@ pub fn edge_points(mesh: &TriMesh, knives: &Knives, classified: &Classified) -> 
             let leader = order[at];
             while at < order.len() && (order[at] == leader || compare(leader, order[at]) == Ordering::Equal) {
                 group.push(row[order[at] as usize].knife);
-                out.rank[range.start + order[at] as usize] = place;
+                out.rank[range.start - first_crossing + order[at] as usize] = place;
                 at += 1;
             }
             out.lead.push(group.iter().copied().min_by_key(|k| knives.ids[k.at()]).unwrap());

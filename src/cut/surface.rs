@@ -5,12 +5,14 @@
 use super::classify::{Classified, KnifeId, Knives, Place, each_through, members_between, search_slab};
 use super::edges::EdgePoints;
 use super::triangles::{Numbering, Subdivision};
+use crate::base::parallel::{ranges, write_parts};
 use crate::base::{Csr, EdgeId, PlaneId, VertexId};
 use crate::complex::Origin;
 use crate::complex::data::origin_point;
 use crate::exact::{self, Point, Sign, counters};
 use crate::mesh::TriMesh;
 use std::cmp::Ordering;
+use std::ops::Range;
 use std::sync::OnceLock;
 
 /// What the stages up to the surface have found.
@@ -204,11 +206,20 @@ impl Surface<'_> {
 
 /// Origins of all points on the surface, by vertex id.
 pub fn surface_origins(mesh: &TriMesh, knives: &Knives, points: &EdgePoints, sub: &Subdivision) -> Vec<Origin> {
-    let mut origins = Vec::with_capacity(mesh.vertices.len() + points.edge.len() + sub.point_triangle.len());
-    origins.extend((0..mesh.vertices.len()).map(|v| Origin::Mesh(VertexId::of(v))));
     let id = |k: KnifeId| -> PlaneId { knives.ids[k.at()] };
-    origins.extend(points.edge.iter().zip(&points.lead).map(|(&e, &k)| Origin::Edge(e, id(k))));
-    origins
-        .extend(sub.point_triangle.iter().zip(&sub.point_pair).map(|(&t, &[p, q])| Origin::Triangle(t, id(p), id(q))));
-    origins
+    let counts = [mesh.vertices.len(), points.edge.len(), sub.point_triangle.len()];
+    let parts: Vec<(usize, Range<usize>)> =
+        (0..3).flat_map(|kind| ranges(counts[kind], 1 << 13).into_iter().map(move |range| (kind, range))).collect();
+    let lengths: Vec<usize> = parts.iter().map(|p| p.1.len()).collect();
+    write_parts(&lengths, |i, out| {
+        let (kind, range) = parts[i].clone();
+        match kind {
+            0 => out.extend(range.map(|v| Origin::Mesh(VertexId::of(v)))),
+            1 => out.extend(range.map(|i| Origin::Edge(points.edge[i], id(points.lead[i])))),
+            _ => out.extend(range.map(|i| {
+                let [p, q] = sub.point_pair[i];
+                Origin::Triangle(sub.point_triangle[i], id(p), id(q))
+            })),
+        }
+    })
 }

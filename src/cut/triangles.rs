@@ -14,6 +14,7 @@
 
 use super::classify::{Classified, KnifeId, Knives};
 use super::edges::EdgePoints;
+use crate::base::parallel::{concat, map_ranges, offsets, write_parts};
 use crate::base::{Csr, EdgeId, PlaneId, TriangleId, VertexId};
 use crate::exact::{self, Sign, counters};
 use crate::mesh::TriMesh;
@@ -73,51 +74,62 @@ pub fn subdivide(
     numbering: Numbering,
 ) -> Subdivision {
     let crossed = |e: EdgeId| !classified.edge_crossings.range(e).is_empty();
-    let cut: Vec<TriangleId> = mesh
-        .triangle_edges
-        .iter()
-        .enumerate()
-        .filter(|(_, edges)| edges.iter().any(|&e| crossed(e)))
-        .map(|(t, _)| TriangleId::of(t))
-        .collect();
-    let blocks: Vec<Subdivision> = cut
-        .par_chunks(BLOCK)
-        .map_init(Scratch::default, |scratch, triangles| {
-            let mut block = Subdivision { chord_pieces: vec![0], ..Default::default() };
-            for &t in triangles {
-                scratch.subdivide(mesh, knives, classified, points, numbering, t, &mut block);
-            }
-            block
-        })
-        .collect();
+    let cut = concat(map_ranges(mesh.triangles.len(), 1 << 13, |range| {
+        let cut = |t: &usize| mesh.triangle_edges[*t].iter().any(|&e| crossed(e));
+        range.filter(cut).map(TriangleId::of).collect()
+    }));
+    let blocks = map_ranges(cut.len(), BLOCK, |range| {
+        let mut scratch = Scratch::default();
+        let mut block = Subdivision { chord_pieces: vec![0], ..Default::default() };
+        for &t in &cut[range] {
+            scratch.subdivide(mesh, knives, classified, points, numbering, t, &mut block);
+        }
+        block
+    });
     join(cut, blocks, numbering)
 }
 
 /// Joins blocks: ids that are local to a block (points inside triangles, chord pieces) move up by what came before.
-fn join(cut: Vec<TriangleId>, blocks: Vec<Subdivision>, numbering: Numbering) -> Subdivision {
-    let mut all = Subdivision { cut, chord_pieces: vec![0], ..Default::default() };
-    for mut block in blocks {
-        let (points, pieces) = (all.point_triangle.len() as u32, all.pieces.len() as u32);
-        let vertex = |v: VertexId| if v.0 >= numbering.first_inner_point { VertexId(v.0 + points) } else { v };
-        let edge = |e: EdgeId| if e.0 >= numbering.first_chord_piece { EdgeId(e.0 + pieces) } else { e };
-        all.chord_triangle.append(&mut block.chord_triangle);
-        append(&mut all.chord_knives, &block.chord_knives);
-        all.chord_pieces.extend(block.chord_pieces[1..].iter().map(|p| p + pieces));
-        all.pieces.extend(block.pieces.iter().map(|&[a, b]| [vertex(a), vertex(b)]));
-        all.point_triangle.append(&mut block.point_triangle);
-        append(&mut all.point_knives, &block.point_knives);
-        all.point_pair.append(&mut block.point_pair);
-        all.face_triangle.append(&mut block.face_triangle);
-        block.faces.items.iter_mut().for_each(|(v, e)| (*v, *e) = (vertex(*v), edge(*e)));
-        append(&mut all.faces, &block.faces);
+fn join(cut: Vec<TriangleId>, mut blocks: Vec<Subdivision>, numbering: Numbering) -> Subdivision {
+    if blocks.len() == 1 {
+        return Subdivision { cut, ..blocks.pop().expect("one block") };
     }
-    all
-}
-
-fn append<T: Copy>(all: &mut Csr<T>, block: &Csr<T>) {
-    let base = all.items.len() as u32;
-    all.items.extend_from_slice(&block.items);
-    all.offsets.extend(block.offsets[1..].iter().map(|o| o + base));
+    let points = offsets(blocks.iter().map(|b| b.point_triangle.len()));
+    let pieces = offsets(blocks.iter().map(|b| b.pieces.len()));
+    let vertex = |i: usize, v: VertexId| {
+        if v.0 >= numbering.first_inner_point { VertexId(v.0 + points[i] as u32) } else { v }
+    };
+    let edge = |i: usize, e: EdgeId| {
+        if e.0 >= numbering.first_chord_piece { EdgeId(e.0 + pieces[i] as u32) } else { e }
+    };
+    blocks.par_iter_mut().enumerate().with_max_len(1).for_each(|(i, block)| {
+        block.pieces.iter_mut().for_each(|piece| *piece = piece.map(|v| vertex(i, v)));
+        block.faces.items.iter_mut().for_each(|(v, e)| (*v, *e) = (vertex(i, *v), edge(i, *e)));
+    });
+    // A block's own list begins with 0, and ends with what the next one begins with.
+    let lengths: Vec<usize> = blocks.iter().map(|b| b.chord_pieces.len() - 1).chain([1]).collect();
+    let chord_pieces = write_parts(&lengths, |i, out| match blocks.get(i) {
+        Some(b) => out.extend(b.chord_pieces[..b.chord_pieces.len() - 1].iter().map(|p| p + pieces[i] as u32)),
+        None => out.push(pieces[i] as u32),
+    });
+    fn all<T>(blocks: &mut [Subdivision], part: impl Fn(&mut Subdivision) -> &mut T) -> Vec<T>
+    where
+        T: Default,
+    {
+        blocks.iter_mut().map(|b| std::mem::take(part(b))).collect()
+    }
+    Subdivision {
+        cut,
+        chord_triangle: concat(all(&mut blocks, |b| &mut b.chord_triangle)),
+        chord_knives: Csr::concat(all(&mut blocks, |b| &mut b.chord_knives)),
+        chord_pieces,
+        pieces: concat(all(&mut blocks, |b| &mut b.pieces)),
+        point_triangle: concat(all(&mut blocks, |b| &mut b.point_triangle)),
+        point_knives: Csr::concat(all(&mut blocks, |b| &mut b.point_knives)),
+        point_pair: concat(all(&mut blocks, |b| &mut b.point_pair)),
+        face_triangle: concat(all(&mut blocks, |b| &mut b.face_triangle)),
+        faces: Csr::concat(all(&mut blocks, |b| &mut b.faces)),
+    }
 }
 
 /// A chord by its places on the boundary cycle, low place first.

@@ -96,36 +96,61 @@ impl Normal {
     }
 }
 
-/// Places of the vertices met lately, by the low bits of their ids: most vertices of a cell are met several times.
-pub struct Places {
-    ids: [VertexId; 32],
-    places: [[Place; 3]; 32],
+/// The walls of some boxes with their corners' places, gathered before anything is computed: the arrays they come from are in
+/// another order, so that each look-up is likely to miss the cache; in loops of nothing else, the misses overlap.
+#[derive(Default)]
+pub struct Gathered {
+    /// Wall `w` has corners `offsets[w]..offsets[w + 1]`.
+    pub normals: Vec<Normal>,
+    pub offsets: Vec<u32>,
+    pub places: Vec<[Place; 3]>,
+    vertices: Vec<VertexId>,
+    starts: Vec<[u32; 2]>,
+    triangles: Vec<TriangleId>,
 }
 
-impl Places {
-    pub fn new() -> Self {
-        Self { ids: [VertexId::NONE; 32], places: [[Place::default(); 3]; 32] }
-    }
-    /// To be called for each new box.
-    #[inline(always)]
+impl Gathered {
     pub fn clear(&mut self) {
-        self.ids = [VertexId::NONE; 32];
+        self.normals.clear();
+        self.offsets.clear();
+        self.offsets.push(0);
+        self.places.clear();
+        self.vertices.clear();
+        self.starts.clear();
+        self.triangles.clear();
+    }
+    /// The number of walls that are there.
+    pub fn len(&self) -> usize {
+        self.starts.len()
+    }
+    pub fn is_empty(&self) -> bool {
+        self.starts.is_empty()
+    }
+    /// Takes a wall, which has one loop, so that loop and face have the same number.
+    #[inline(always)]
+    pub fn push(&mut self, g: &GridCells, f: FaceId) {
+        self.starts.push([g.loop_offsets[f.at()], g.loop_offsets[f.at() + 1]]);
+        self.triangles.push(g.wall_triangle[f.at()]);
+    }
+    /// To be called when all walls are there, before [`place`](Self::place).
+    pub fn corners(&mut self, g: &GridCells, normals: &[Normal]) {
+        for &[from, to] in &self.starts {
+            self.vertices.extend_from_slice(&g.corners[from as usize..to as usize]);
+            self.offsets.push(self.vertices.len() as u32);
+        }
+        self.normals.extend(self.triangles.iter().map(|t| normals[t.at()]));
+    }
+    /// Places of the next walls, up to wall `end`, in a box.
+    pub fn place(&mut self, g: &GridCells, frame: &[&Interval; 3], end: usize) {
+        let vertices = &self.vertices[self.places.len()..self.offsets[end] as usize];
+        self.places.extend(vertices.iter().map(|&v| {
+            let (x, r) = (&g.coords[v.at()], g.residual(v));
+            std::array::from_fn(|i| frame[i].place(x[i], r[i]))
+        }));
     }
     #[inline(always)]
-    pub fn of(&mut self, g: &GridCells, frame: &[&Interval; 3], v: VertexId) -> [Place; 3] {
-        let slot = v.at() & 31;
-        if self.ids[slot] != v {
-            let (x, r) = (g.coords[v.at()], g.residual(v));
-            self.ids[slot] = v;
-            self.places[slot] = std::array::from_fn(|i| frame[i].place(x[i], r[i]));
-        }
-        self.places[slot]
-    }
-}
-
-impl Default for Places {
-    fn default() -> Self {
-        Self::new()
+    pub fn wall(&self, w: usize) -> (&[[Place; 3]], Normal) {
+        (&self.places[self.offsets[w] as usize..self.offsets[w + 1] as usize], self.normals[w])
     }
 }
 
@@ -224,21 +249,20 @@ impl<'a> CellSums<'a> {
 
     /// A wall of the cell. `BODY`: volume and first moments are wanted too.
     #[inline(always)]
-    pub fn wall<const BODY: bool>(&mut self, g: &GridCells, places: &mut Places, normal: Normal, f: FaceId) {
-        let corners = g.face_corners(f);
-        let mut place = |v: VertexId| {
-            let mut p = places.of(g, &self.frame, v);
+    pub fn wall<const BODY: bool>(&mut self, (corners, normal): (&[[Place; 3]], Normal)) {
+        let mut place = |p: &[Place; 3]| {
+            let mut p = *p;
             for i in 0..3 {
                 p[i].h -= self.origin[i];
                 self.reach |= p[i].h.unsigned_abs();
             }
             p
         };
-        let a = place(corners[0]);
-        let mut b = place(corners[1]);
+        let a = place(&corners[0]);
+        let mut b = place(&corners[1]);
         self.ratios_known &= normal.root != 0.0;
-        for &v in &corners[2..] {
-            let c = place(v);
+        for c in &corners[2..] {
+            let c = place(c);
             self.triangles += 1.0;
             let n = doubled_area(&a, &b, &c, normal);
             let s: [i64; 3] = std::array::from_fn(|i| a[i].h + b[i].h + c[i].h);
@@ -350,22 +374,9 @@ impl<'a> CellSums<'a> {
             let err = err + m.hi.abs() * LOSS;
             let q = m.over(v, inverse);
             let err = (err + q.hi.abs() * volume_err) / least + q.hi.abs() * LOSS;
-            out[2 + i] = self.coordinate(i, q, err)?;
+            out[2 + i] = coordinate(self.frame[i], Place { h: self.origin[i], l: 0.0 }, q, err)?;
         }
         Some(out)
-    }
-
-    /// low + origin + q, where q and its bound are in terms of 2^exponent.
-    #[inline(always)]
-    fn coordinate(&self, axis: usize, q: Pair, err: f64) -> Option<f64> {
-        let frame = self.frame[axis];
-        let o = self.origin[axis];
-        let top = (o >> 32 << 32) as f64 * frame.unit;
-        let rest = (o as u32) as f64 * frame.unit;
-        let (q, err) = (q.scaled(frame.unit * UNITS), err * frame.unit * UNITS);
-        let s = two_sum(frame.low, top).plus(two_sum(q.hi, rest)).plus(Pair::of(q.lo));
-        let loss = (frame.low.abs() + frame.unit * UNITS + q.hi.abs()) * LOSS;
-        settle(s, err + loss)
     }
 
     /// Area vector and centroid of the walls. Zero components are known from the triangles; with `all` the faces of the cell
@@ -406,10 +417,22 @@ impl<'a> CellSums<'a> {
             let err = (first_err + m.hi.abs() * LOSS + q.hi.abs() * w_err) / least + q.hi.abs() * LOSS;
             // Six times the moment over twice the area, and 2⁻¹¹⁹ over 2⁻¹²².
             let third = Pair { hi: 8.0 / 3.0, lo: 1.0 / 6755399441055744.0 };
-            out[3 + i] = self.coordinate(i, q.times(third), err * 3.0)?;
+            out[3 + i] = coordinate(self.frame[i], Place { h: self.origin[i], l: 0.0 }, q.times(third), err * 3.0)?;
         }
         Some(out)
     }
+}
+
+/// The coordinate at a place plus q, where q and its bound are in terms of 2^exponent; the place's rest is off by the slack.
+#[inline(always)]
+fn coordinate(frame: &Interval, o: Place, q: Pair, err: f64) -> Option<f64> {
+    let top = (o.h >> 32 << 32) as f64 * frame.unit;
+    let rest = (o.h as u32) as f64 * frame.unit;
+    let length = frame.unit * UNITS;
+    let (q, err) = (q.scaled(length), err * length + if o.l == 0.0 { 0.0 } else { frame.slack * frame.unit });
+    let s = two_sum(frame.low, top).plus(two_sum(q.hi, rest)).plus(two_sum(q.lo, o.l * frame.unit));
+    let loss = (frame.low.abs() + length + q.hi.abs()) * LOSS;
+    settle(s, err + loss)
 }
 
 /// The doubled area vector of a triangle, zero where the whole input triangle's is.
@@ -432,38 +455,30 @@ fn doubled_area(a: &[Place; 3], b: &[Place; 3], c: &[Place; 3], normal: Normal) 
     out
 }
 
-/// Area and centroid of a face in a grid plane, all loops relative to its first corner; the centroid's two coordinates follow
-/// the axis' cyclically. Returns the area for the cells, and area, fraction and centroid if they are decided.
+/// Area and centroid of a face in a grid plane, all loops relative to its first corner, from its corners' places along the two axes
+/// that follow its own, and the offsets of its loops. Returns the area for the cells, and area, fraction and centroid if they are decided.
 ///
 /// Bounds as above, for edges in place of triangles; T: the size of the face.
-pub fn plane_face(g: &GridCells, f: FaceId, frames: [&Interval; 2], axes: [usize; 2]) -> (PlaneArea, Option<[f64; 4]>) {
+pub fn plane_face(places: &[[Place; 2]], loops: &[u32], frames: [&Interval; 2]) -> (PlaneArea, Option<[f64; 4]>) {
     let [fb, fc] = frames;
-    let [b, c] = axes;
-    let place = |v: VertexId| {
-        let (x, r) = (&g.coords[v.at()], g.residual(v));
-        [fb.place(x[b], r[b]), fc.place(x[c], r[c])]
-    };
     let mut sum = Sum::default();
     let mut first = [Sum::default(); 2];
     let mut reach = 1u64;
     let mut count = 0.0;
-    let start = g.face_corners(f)[0];
-    let o = place(start);
-    let relative = |v: VertexId| {
-        let p = place(v);
-        [Place { h: p[0].h - o[0].h, l: p[0].l - o[0].l }, Place { h: p[1].h - o[1].h, l: p[1].l - o[1].l }]
-    };
-    for l in g.loops_of(f) {
-        let corners = g.corners_of(l);
+    let o = places[0];
+    let relative =
+        |p: &[Place; 2]| -> [Place; 2] { std::array::from_fn(|i| Place { h: p[i].h - o[i].h, l: p[i].l - o[i].l }) };
+    for (l, w) in loops.windows(2).enumerate() {
+        let corners = &places[(w[0] - loops[0]) as usize..(w[1] - loops[0]) as usize];
         if corners.len() < 2 {
             continue;
         }
-        // Sides at the start itself contribute nothing.
-        let (mut p, from) =
-            if corners[0] == start { (relative(corners[1]), 2) } else { (relative(corners[corners.len() - 1]), 0) };
+        // Sides at the origin itself contribute nothing.
+        let (p, from) = if l == 0 { (&corners[1], 2) } else { (&corners[corners.len() - 1], 0) };
+        let mut p = relative(p);
         reach |= p[0].h.unsigned_abs() | p[1].h.unsigned_abs();
-        for &v in &corners[from..] {
-            let q = relative(v);
+        for q in &corners[from..] {
+            let q = relative(q);
             reach |= q[0].h.unsigned_abs() | q[1].h.unsigned_abs();
             count += 1.0;
             let w = product(p[0].h, q[1].h) - product(p[1].h, q[0].h);
@@ -506,13 +521,7 @@ pub fn plane_face(g: &GridCells, f: FaceId, frames: [&Interval; 2], axes: [usize
             let q = m.over(d, inverse);
             let q_err = (first_err + m.hi.abs() * LOSS + q.hi.abs() * d_err) / least + q.hi.abs() * LOSS;
             let third = Pair { hi: 8.0 / 3.0, lo: 1.0 / 6755399441055744.0 };
-            let (q, q_err) = (q.times(third), q_err * 3.0);
-            let frame = frames[i];
-            let length = frame.unit * UNITS;
-            let (x, r) = (g.coords[start.at()][axes[i]], g.residual(start)[axes[i]]);
-            let s = two_sum(x, q.hi * length).plus(two_sum(r, q.lo * length));
-            let loss = (x.abs() + length) * LOSS + frame.slack * frame.unit;
-            out[2 + i] = settle(s, q_err * length + loss)?;
+            out[2 + i] = coordinate(frames[i], o[i], q.times(third), q_err * 3.0)?;
         }
         Some(out)
     };

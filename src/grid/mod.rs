@@ -1,5 +1,6 @@
 //! Grid: the boxes of a rectilinear grid against a surface: full, empty or cut into polyhedra.
 
+pub mod aggregate;
 pub mod assemble;
 pub mod cell_sums;
 pub mod cells;
@@ -7,6 +8,7 @@ pub mod check;
 pub mod data;
 pub mod exact_moments;
 pub mod fixed_point;
+pub mod full_faces;
 pub mod ground;
 pub mod inside;
 pub mod keys;
@@ -16,6 +18,7 @@ pub mod moments;
 pub mod oriented;
 pub mod pieces;
 pub mod points;
+pub mod regions;
 pub mod settle;
 pub mod squares;
 pub mod to_complex;

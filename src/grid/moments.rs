@@ -9,12 +9,13 @@
 //! Closure: a cell's wall area vector and the areas of its faces in grid planes sum to zero within half an ulp per term.
 //! Cost: about 1 µs per cut cell with its faces, on one thread; memory: the outputs, and 32 bytes per face, 16 per triangle.
 
-use super::cell_sums::{CellSums, Normal, Places, PlaneArea, WallValues, on_high_side, plane_face};
+use super::cell_sums::{BodyValues, CellSums, Gathered, Normal, PlaneArea, WallValues, on_high_side, plane_face};
 use super::data::GridCells;
 use super::exact_moments;
-use super::fixed_point::{Frames, Interval};
+use super::fixed_point::{Frames, Interval, Place, power};
 use super::settle::{settle, settle_rational};
 use crate::base::{BoxId, CellId, Csr, FaceId, TriangleId};
+use crate::complex::HalfFace;
 use rayon::prelude::*;
 use rug::Rational;
 use std::ops::Range;
@@ -74,6 +75,7 @@ fn settle_all<const N: usize>(values: &[Rational; N]) -> ([f64; N], bool) {
     (out, beyond)
 }
 
+#[inline(never)]
 fn normals(g: &GridCells) -> Vec<Normal> {
     let mut out = vec![Normal::default(); g.mesh.triangles.len()];
     // Only triangles that carry a wall; walls are sorted by triangle.
@@ -136,39 +138,68 @@ pub fn moments(g: &GridCells) -> GridMoments {
     out
 }
 
-/// Faces from `first` on; returns how many needed rationals.
-fn face_run(g: &GridCells, frames: &Frames, first: usize, out: FaceOut) -> usize {
+/// Faces whose corners are gathered together.
+const FACES_AT_ONCE: usize = 64;
+
+/// Faces from `first` on; returns how many needed rationals. Corners are gathered in a loop of their own, see [`Gathered`].
+#[inline(never)]
+fn face_run(g: &GridCells, frames: &Frames, first: usize, mut out: FaceOut) -> usize {
     let mut exact = 0;
-    for k in 0..out.area.len() {
-        let f = FaceId(g.plane_faces[0] + (first + k) as u32);
-        let axis = g.face_axis(f);
-        let ([fb, fc], [b, c]) = square_frames(g, frames, first + k, axis);
-        let level = g.lattice.nodes[axis][g.lattice.node_at(g.square_node[first + k])[axis]];
-        out.centroid[k][axis] = level;
-        let ordinary = fb.ordinary && fc.ordinary;
-        let values = if !ordinary {
-            None
-        } else if is_square(g, f) {
-            let whole = fb.size.times(fc.size);
-            let scale = super::fixed_point::power(fb.exponent + fc.exponent);
-            // Two lengths of at most 55 bits: the product of pairs is off by less than 2⁻¹⁰⁰.
-            let area = settle(whole.scaled(scale), whole.hi * scale * super::fixed_point::power(-96));
-            out.areas[k] = whole_square(fb, fc);
-            area.map(|area| [area, 1.0, fb.middle, fc.middle])
-        } else {
-            let (area, values) = plane_face(g, f, [fb, fc], [b, c]);
-            out.areas[k] = area;
-            values
-        };
-        let values = values.unwrap_or_else(|| {
-            exact += 1;
-            let (values, beyond) = settle_all(&exact_face(g, first + k, f, axis));
-            out.flags[k] = beyond as u8;
-            values
-        });
-        [out.area[k], out.fraction[k], out.centroid[k][b], out.centroid[k][c]] = values;
+    let mut places: Vec<[Place; 2]> = Vec::new();
+    let count = out.area.len();
+    for start in (0..count).step_by(FACES_AT_ONCE) {
+        let run = start..(start + FACES_AT_ONCE).min(count);
+        places.clear();
+        for k in run.clone() {
+            let f = FaceId(g.plane_faces[0] + (first + k) as u32);
+            let ([fb, fc], [b, c]) = square_frames(g, frames, first + k, g.face_axis(f));
+            places.extend(g.face_corners(f).iter().map(|&v| {
+                let (x, r) = (&g.coords[v.at()], g.residual(v));
+                [fb.place(x[b], r[b]), fc.place(x[c], r[c])]
+            }));
+        }
+        let mut rest = &places[..];
+        for k in run {
+            let f = FaceId(g.plane_faces[0] + (first + k) as u32);
+            let (mine, others) = rest.split_at(g.face_corners(f).len());
+            rest = others;
+            exact += one_face(g, frames, first, k, mine, &mut out) as usize;
+        }
     }
     exact
+}
+
+/// Face `k` of a run; true if it needed rationals.
+#[inline(always)]
+fn one_face(g: &GridCells, frames: &Frames, first: usize, k: usize, places: &[[Place; 2]], out: &mut FaceOut) -> bool {
+    let f = FaceId(g.plane_faces[0] + (first + k) as u32);
+    let axis = g.face_axis(f);
+    let ([fb, fc], [b, c]) = square_frames(g, frames, first + k, axis);
+    let level = g.lattice.nodes[axis][g.lattice.node_at(g.square_node[first + k])[axis]];
+    out.centroid[k][axis] = level;
+    let values = if !(fb.ordinary && fc.ordinary) {
+        None
+    } else if is_square(g, f) {
+        let whole = fb.size.times(fc.size);
+        let scale = power(fb.exponent + fc.exponent);
+        // Two lengths of at most 55 bits: the product of pairs is off by less than 2⁻¹⁰⁰.
+        let area = settle(whole.scaled(scale), whole.hi * scale * power(-96));
+        out.areas[k] = whole_square(fb, fc);
+        area.map(|area| [area, 1.0, fb.middle, fc.middle])
+    } else {
+        let loops = &g.loop_offsets[g.face_loops[f.at()] as usize..=g.face_loops[f.at() + 1] as usize];
+        let (area, values) = plane_face(places, loops, [fb, fc]);
+        out.areas[k] = area;
+        values
+    };
+    let decided = values.is_some();
+    let values = values.unwrap_or_else(|| {
+        let (values, beyond) = settle_all(&exact_face(g, first + k, f, axis));
+        out.flags[k] = beyond as u8;
+        values
+    });
+    [out.area[k], out.fraction[k], out.centroid[k][b], out.centroid[k][c]] = values;
+    !decided
 }
 
 /// Four corners, all of them nodes: the whole square.
@@ -252,69 +283,120 @@ fn cells(g: &GridCells, frames: &Frames, normals: &[Normal], areas: &[PlaneArea]
         .sum();
 }
 
+/// Boxes whose walls are gathered together.
+const BOXES_AT_ONCE: usize = 24;
+
 /// The cells of a run of boxes; returns how many needed rationals.
+#[inline(never)]
 fn cell_run(
     g: &GridCells,
     frames: &Frames,
     normals: &[Normal],
     areas: &[PlaneArea],
     boxes: Range<usize>,
-    out: CellOut,
+    mut out: CellOut,
 ) -> usize {
-    let mut places = Places::new();
-    let mut exact = 0;
-    let first = g.box_cells[boxes.start] as usize;
+    let (mut gathered, mut planes, mut exact) = (Gathered::default(), Vec::new(), 0);
     let walls = g.wall_count() as u32;
-    for i in boxes {
-        let b = g.cut_boxes[i];
-        let frame = frames.of_box(&g.lattice, b);
-        let ordinary = frame.iter().all(|x| x.ordinary);
-        places.clear();
-        for c in g.box_cells[i]..g.box_cells[i + 1] {
-            let k = c as usize - first;
-            let c = CellId(c);
-            let faces = g.cell_faces(c);
-            // Not always in the outer shell: a body may lie within the box.
-            let wall = faces.iter().map(|h| h.face()).find(|f| f.0 < walls);
-            let start = wall.unwrap_or(faces[0].face());
-            let (mut body, mut boundary) = (None, None);
-            let has_walls = wall.is_some();
-            if ordinary {
-                let origin = places.of(g, &frame, g.face_corners(start)[0]);
-                let mut sums = CellSums::new(frame, origin);
-                for h in faces {
+    let first = g.box_cells[boxes.start];
+    let mut ends = Vec::new();
+    for start in boxes.clone().step_by(BOXES_AT_ONCE) {
+        let run = start..(start + BOXES_AT_ONCE).min(boxes.end);
+        gathered.clear();
+        planes.clear();
+        ends.clear();
+        for i in run.clone() {
+            for c in g.box_cells[i]..g.box_cells[i + 1] {
+                for h in g.cell_faces(CellId(c)) {
                     let f = h.face();
-                    if f.0 < walls {
-                        sums.wall::<true>(g, &mut places, normals[g.wall_triangle[f.at()].at()], f);
-                    } else {
-                        sums.plane(&areas[(f.0 - walls) as usize], g.face_axis(f), on_high_side(*h));
+                    match f.0.checked_sub(walls) {
+                        None => gathered.push(g, f),
+                        Some(k) => planes.push(areas[k as usize]),
                     }
                 }
-                body = sums.body();
-                boundary = if has_walls { sums.walls(true) } else { None };
             }
-            if body.is_none() || boundary.is_none() && has_walls {
-                exact += 1;
-            }
-            let body = body.unwrap_or_else(|| {
-                let (values, beyond) = settle_all(&exact_moments::body(g, b, c));
-                out.flags[k] |= beyond as u8;
-                values
-            });
-            [out.volume[k], out.fraction[k]] = [body[0], body[1]];
-            out.centroid[k] = [body[2], body[3], body[4]];
-            if has_walls {
-                let boundary = boundary.unwrap_or_else(|| {
-                    let (values, beyond) = exact_walls(g, exact_moments::cell_wall_faces(g, c));
-                    out.flags[k] |= beyond as u8;
-                    values
-                });
-                out.boundary_area[k] = [boundary[0], boundary[1], boundary[2]];
-                out.boundary_centroid[k] = [boundary[3], boundary[4], boundary[5]];
-            } else {
-                out.boundary_centroid[k] = out.centroid[k];
+            ends.push(gathered.len());
+        }
+        gathered.corners(g, normals);
+        for (i, &end) in run.clone().zip(&ends) {
+            gathered.place(g, &frames.of_box(&g.lattice, g.cut_boxes[i]), end);
+        }
+        let (mut wall, mut plane) = (0, 0);
+        for i in run {
+            let b = g.cut_boxes[i];
+            let frame = frames.of_box(&g.lattice, b);
+            for c in g.box_cells[i]..g.box_cells[i + 1] {
+                let faces = g.cell_faces(CellId(c));
+                let count = faces.iter().filter(|h| h.face().0 < walls).count();
+                let (from, to) = (wall, wall + count);
+                let mine = &planes[plane..plane + faces.len() - count];
+                (wall, plane) = (to, plane + mine.len());
+                let values = if frame.iter().all(|x| x.ordinary) {
+                    one_cell(g, frame, faces, walls, &gathered, from..to, mine)
+                } else {
+                    (None, None)
+                };
+                exact += put_cell(g, b, CellId(c), count > 0, values, (c - first) as usize, &mut out) as usize;
             }
         }
+    }
+    exact
+}
+
+/// Volume, fraction and centroid; and the walls' values, if there are walls; what is decided of them.
+#[inline(always)]
+fn one_cell(
+    g: &GridCells,
+    frame: [&Interval; 3],
+    faces: &[HalfFace],
+    walls: u32,
+    gathered: &Gathered,
+    mine: Range<usize>,
+    planes: &[PlaneArea],
+) -> (Option<BodyValues>, Option<WallValues>) {
+    let has_walls = !mine.is_empty();
+    let origin = if has_walls { gathered.wall(mine.start).0[0] } else { Default::default() };
+    let mut sums = CellSums::new(frame, origin);
+    for w in mine {
+        sums.wall::<true>(gathered.wall(w));
+    }
+    let mut next = planes.iter();
+    for h in faces.iter().filter(|h| h.face().0 >= walls) {
+        let Some(area) = next.next() else { break };
+        sums.plane(area, g.face_axis(h.face()), on_high_side(*h));
+    }
+    (sums.body(), if has_walls { sums.walls(true) } else { None })
+}
+
+/// Writes a cell's values, from rationals where they are not there yet; true if that was so.
+#[inline(always)]
+fn put_cell(
+    g: &GridCells,
+    b: BoxId,
+    c: CellId,
+    has_walls: bool,
+    (body, boundary): (Option<BodyValues>, Option<WallValues>),
+    k: usize,
+    out: &mut CellOut,
+) -> bool {
+    let exact = body.is_none() || boundary.is_none() && has_walls;
+    let body = body.unwrap_or_else(|| {
+        let (values, beyond) = settle_all(&exact_moments::body(g, b, c));
+        out.flags[k] |= beyond as u8;
+        values
+    });
+    [out.volume[k], out.fraction[k]] = [body[0], body[1]];
+    out.centroid[k] = [body[2], body[3], body[4]];
+    if has_walls {
+        let boundary = boundary.unwrap_or_else(|| {
+            let (values, beyond) = exact_walls(g, exact_moments::cell_wall_faces(g, c));
+            out.flags[k] |= beyond as u8;
+            values
+        });
+        out.boundary_area[k] = [boundary[0], boundary[1], boundary[2]];
+        out.boundary_centroid[k] = [boundary[3], boundary[4], boundary[5]];
+    } else {
+        out.boundary_centroid[k] = out.centroid[k];
     }
     exact
 }
@@ -346,12 +428,13 @@ fn some_walls(g: &GridCells, frames: &Frames, normals: &[Normal], b: BoxId, face
         if !frame.iter().all(|x| x.ordinary) {
             return None;
         }
-        let mut places = Places::new();
-        let origin = places.of(g, &frame, g.face_corners(faces[0])[0]);
-        let mut sums = CellSums::new(frame, origin);
-        for &f in faces {
-            sums.wall::<false>(g, &mut places, normals[g.wall_triangle[f.at()].at()], f);
-        }
+        let mut gathered = Gathered::default();
+        gathered.clear();
+        faces.iter().for_each(|&f| gathered.push(g, f));
+        gathered.corners(g, normals);
+        gathered.place(g, &frame, faces.len());
+        let mut sums = CellSums::new(frame, gathered.wall(0).0[0]);
+        (0..faces.len()).for_each(|w| sums.wall::<false>(gathered.wall(w)));
         sums.walls(false)
     };
     fast().unwrap_or_else(|| exact_walls(g, faces.iter().copied()).0)

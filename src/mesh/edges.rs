@@ -10,7 +10,11 @@
 //! Cost: linear, plus the sort of buckets (a vertex with a million sides costs a million times its logarithm).
 
 use super::EdgeUse;
+use crate::base::parallel::{concat, offsets};
 use crate::base::{Csr, EdgeId, TriangleId, VertexId};
+use rayon::prelude::*;
+use std::ops::Range;
+use std::sync::atomic::{AtomicU32, Ordering};
 
 /// Edges, the edges of each triangle, and the triangles of each edge; fields as in [`super::TriMesh`].
 #[derive(Clone, Debug, Default)]
@@ -27,40 +31,76 @@ fn pack(hi: u32, triangle: usize, forward: bool, side: usize) -> u64 {
     (hi as u64) << 33 | (triangle as u64) << 3 | (forward as u64) << 2 | side as u64
 }
 
-/// Finds the edges of `triangles`, whose corners are below `vertex_count`.
+/// The edges from a range of lower vertices: higher vertices, and uses.
+struct Part {
+    edges: Vec<[VertexId; 2]>,
+    uses: Csr<EdgeUse>,
+}
+
+/// Finds the edges of `triangles`, whose corners are below `vertex_count`. Each thread of the current rayon pool takes a range of
+/// lower vertices, and walks all triangles to find the sides in it.
 pub fn edge_table(vertex_count: usize, triangles: &[[VertexId; 3]]) -> EdgeTable {
-    let mut offsets = vec![0u32; vertex_count + 1];
+    let threads = if triangles.len() < 1 << 14 { 1 } else { rayon::current_num_threads() };
+    let bound = |i: usize| (vertex_count * i / threads) as u32;
+    let part = |i: usize| edges_from(bound(i)..bound(i + 1), triangles);
+    let parts: Vec<Part> =
+        if threads == 1 { vec![part(0)] } else { (0..threads).into_par_iter().with_max_len(1).map(part).collect() };
+    let first = offsets(parts.iter().map(|p| p.edges.len()));
+    // Every side has one use, so every place is written once, by whichever thread has the use.
+    let sides: Vec<[AtomicU32; 3]> = (0..triangles.len())
+        .into_par_iter()
+        .with_min_len(1 << 14)
+        .map(|_| std::array::from_fn(|_| AtomicU32::new(EdgeId::NONE.0)))
+        .collect();
+    parts.par_iter().zip(&first).for_each(|(part, &first)| {
+        for e in 0..part.edges.len() {
+            for u in part.uses.row(e) {
+                sides[u.triangle.at()][u.side()].store((first + e) as u32, Ordering::Relaxed);
+            }
+        }
+    });
+    let triangle_edges = sides.into_iter().map(|side| side.map(|e| EdgeId(e.into_inner()))).collect();
+    let (edges, uses): (Vec<_>, Vec<_>) = parts.into_iter().map(|p| (p.edges, p.uses)).unzip();
+    EdgeTable { edges: concat(edges), triangle_edges, edge_uses: Csr::concat(uses) }
+}
+
+fn edges_from(range: Range<u32>, triangles: &[[VertexId; 3]]) -> Part {
+    // Behind the range for what is before it.
+    let bucket = |v: u32| v.wrapping_sub(range.start) as usize;
+    let mut ends = vec![0u32; range.len() + 1];
     for &[a, b, c] in triangles {
-        offsets[a.at().min(b.at()) + 1] += 1;
-        offsets[b.at().min(c.at()) + 1] += 1;
-        offsets[c.at().min(a.at()) + 1] += 1;
+        for v in [a.0.min(b.0), b.0.min(c.0), c.0.min(a.0)] {
+            if let Some(n) = ends.get_mut(bucket(v).wrapping_add(1)) {
+                *n += (bucket(v) < range.len()) as u32;
+            }
+        }
     }
-    for v in 0..vertex_count {
-        offsets[v + 1] += offsets[v];
+    for v in 0..range.len() {
+        ends[v + 1] += ends[v];
     }
-    let mut sides = vec![0u64; triangles.len() * 3];
+    let count = ends[range.len()] as usize;
+    let mut sides = vec![0u64; count];
     for (t, &corners) in triangles.iter().enumerate() {
         for side in 0..3 {
             let (from, to) = (corners[side].0, corners[(side + 1) % 3].0);
-            let slot = &mut offsets[from.min(to) as usize];
-            sides[*slot as usize] = pack(from.max(to), t, from < to, side);
-            *slot += 1;
+            let at = bucket(from.min(to));
+            if at < range.len() {
+                let slot = &mut ends[at];
+                sides[*slot as usize] = pack(from.max(to), t, from < to, side);
+                *slot += 1;
+            }
         }
     }
     // Filling has moved each offset to the end of its bucket, which is the start of the next.
-    let mut table = EdgeTable {
-        edges: Vec::with_capacity(triangles.len() * 3 / 2 + 1),
-        triangle_edges: vec![[EdgeId::NONE; 3]; triangles.len()],
-        edge_uses: Csr::with_capacity(triangles.len() * 3 / 2 + 1, triangles.len() * 3),
-    };
+    let mut part = Part { edges: Vec::with_capacity(count / 2 + 1), uses: Csr::with_capacity(count / 2 + 1, count) };
     let mut start = 0;
-    for (lo, &end) in offsets[..vertex_count].iter().enumerate() {
+    for (lo, &end) in range.clone().zip(&ends) {
         let bucket = &mut sides[start..end as usize];
         start = end as usize;
         sort_bucket(bucket);
-        emit_bucket(lo as u32, bucket, &mut table);
+        emit_bucket(lo, bucket, &mut part);
     }
-    table
+    part
 }
 
 /// Insertion sort for the usual handful, which arrives nearly sorted; the library's sort beyond.
@@ -82,7 +122,7 @@ fn sort_bucket(bucket: &mut [u64]) {
 }
 
 #[inline]
-fn emit_bucket(lo: u32, bucket: &[u64], table: &mut EdgeTable) {
+fn emit_bucket(lo: u32, bucket: &[u64], part: &mut Part) {
     let mut last = lo;
     for &packed in bucket {
         let hi = (packed >> 33) as u32;
@@ -91,17 +131,16 @@ fn emit_bucket(lo: u32, bucket: &[u64], table: &mut EdgeTable) {
         }
         if hi != last {
             if last != lo {
-                table.edge_uses.end_row();
+                part.uses.end_row();
             }
             last = hi;
-            table.edges.push([VertexId(lo), VertexId(hi)]);
+            part.edges.push([VertexId(lo), VertexId(hi)]);
         }
-        let edge_use = EdgeUse { triangle: TriangleId((packed >> 3) as u32 & 0x3fff_ffff), code: packed as u8 & 7 };
-        table.triangle_edges[edge_use.triangle.at()][edge_use.side()] = EdgeId::of(table.edges.len() - 1);
-        table.edge_uses.items.push(edge_use);
+        let triangle = TriangleId((packed >> 3) as u32 & 0x3fff_ffff);
+        part.uses.items.push(EdgeUse { triangle, code: packed as u8 & 7 });
     }
     if last != lo {
-        table.edge_uses.end_row();
+        part.uses.end_row();
     }
 }
 

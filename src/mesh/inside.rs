@@ -51,7 +51,7 @@ pub fn locate(mesh: &TriMesh, bvh: &Bvh, x: &[f64; 3]) -> Place {
 }
 
 /// Whether a point of the triangle's plane is on the triangle.
-fn holds(q: &[[f64; 3]; 3], x: &[f64; 3]) -> bool {
+pub fn holds(q: &[[f64; 3]; 3], x: &[f64; 3]) -> bool {
     let (axis, sense) = open_axis(q);
     (0..3).all(|i| {
         let s = turn(&q[i], &q[(i + 1) % 3], x, axis);

@@ -10,6 +10,7 @@ pub mod projection;
 pub mod ray;
 pub mod self_intersection;
 pub mod shells;
+pub mod update;
 pub mod validate;
 pub mod volume;
 
@@ -17,6 +18,7 @@ pub use build::{MeshInput, MeshOptions, build, build_patch};
 pub use inside::{Place, locate};
 pub use nesting::next_anchor;
 pub use shells::{WedgeScratch, wedge_mates};
+pub use update::update_coordinates;
 
 use crate::base::{ComponentId, Csr, EdgeId, ShellId, TriangleId, VertexId};
 
@@ -71,7 +73,7 @@ pub struct Anchor {
     pub hit: TriangleId,
 }
 
-/// A closed, valid triangle mesh. Made by [`build`]; never changed afterwards.
+/// A closed, valid triangle mesh. Made by [`build`]; only [`update_coordinates`] changes it.
 #[derive(Clone, Debug, Default)]
 pub struct TriMesh {
     /// Vertices that triangles use, in input order.

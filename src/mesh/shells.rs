@@ -11,9 +11,10 @@
 //! Cost: linear, and a radial sort per non-manifold edge.
 
 use super::{EdgeUse, TriMesh};
-use crate::base::union_find::UnionFind;
-use crate::base::{Csr, EdgeId, VertexId};
+use crate::base::parallel::map_ranges;
+use crate::base::{Csr, EdgeId, SharedUnionFind, VertexId};
 use crate::exact::{self, Direction, Sign, cyclic::sort_cyclic};
+use std::ops::Range;
 
 /// Buffers of the radial sort, reused from edge to edge.
 #[derive(Clone, Debug, Default)]
@@ -99,29 +100,51 @@ pub fn wedge_mates(mesh: &TriMesh, edge: EdgeId, scratch: &mut WedgeScratch, pai
     wedges(mesh.into(), edge, scratch, |back, fore| pairs.push([back, fore]));
 }
 
-/// The edge-connected component of each triangle, numbered by lowest triangle, and their number.
-pub fn components(triangle_count: usize, edge_uses: &Csr<EdgeUse>) -> (Vec<u32>, usize) {
-    let mut sets = UnionFind::new(triangle_count);
-    for uses in edge_uses.rows() {
-        for u in &uses[1..] {
-            sets.union(uses[0].triangle.at(), u.triangle.at());
-        }
-    }
-    sets.labels()
+/// Sets of triangles, numbered by lowest triangle.
+#[derive(Clone, Debug, Default)]
+pub struct Sets {
+    /// The set of each triangle.
+    pub of: Vec<u32>,
+    /// The lowest triangle of each set.
+    pub lowest: Vec<u32>,
 }
 
-/// The shell of each triangle, numbered by lowest triangle, and their number. `components` are those of
-/// [`components`]: without non-manifold edges shells are components, and nothing is computed.
-pub fn shells(s: Surface, components: &(Vec<u32>, usize)) -> (Vec<u32>, usize) {
-    if s.edge_uses.rows().all(|uses| uses.len() <= 2) {
-        return components.clone();
-    }
-    let mut sets = UnionFind::new(s.triangles.len());
-    let mut scratch = WedgeScratch::default();
-    for e in 0..s.edges.len() {
-        wedges(s, EdgeId::of(e), &mut scratch, |a, b| {
-            sets.union(a.triangle.at(), b.triangle.at());
-        });
-    }
-    sets.labels()
+/// The edge-connected components.
+pub fn components(triangle_count: usize, edge_uses: &Csr<EdgeUse>) -> Sets {
+    let sets = SharedUnionFind::new(triangle_count);
+    map_ranges(edge_uses.len(), LEAST, |range| {
+        for e in range {
+            let uses = edge_uses.row(e);
+            for u in &uses[1..] {
+                sets.union(uses[0].triangle.at(), u.triangle.at());
+            }
+        }
+    });
+    let (of, lowest) = sets.labels(|_| true);
+    Sets { of, lowest }
 }
+
+/// Whether an edge has more than two uses.
+pub fn has_fans(edge_uses: &Csr<EdgeUse>) -> bool {
+    let fan = |range: Range<usize>| range.into_iter().any(|e| edge_uses.range(e).len() > 2);
+    map_ranges(edge_uses.len(), LEAST, fan).contains(&true)
+}
+
+/// The shells; `None` where they are the components: without non-manifold edges nothing is computed.
+pub fn shells(s: Surface) -> Option<Sets> {
+    if !has_fans(s.edge_uses) {
+        return None;
+    }
+    let sets = SharedUnionFind::new(s.triangles.len());
+    map_ranges(s.edges.len(), LEAST, |range| {
+        let mut scratch = WedgeScratch::default();
+        for e in range {
+            wedges(s, EdgeId::of(e), &mut scratch, |a, b| sets.union(a.triangle.at(), b.triangle.at()));
+        }
+    });
+    let (of, lowest) = sets.labels(|_| true);
+    Some(Sets { of, lowest })
+}
+
+/// Elements in one task at least.
+const LEAST: usize = 1 << 13;

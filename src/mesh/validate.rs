@@ -7,20 +7,26 @@
 //! Valid: non-manifold edges (any balanced number of uses) and vertices, several components, voids. Degenerate cases of
 //! the checks themselves: −0 equals +0; a triangle with a repeated corner is degenerate and its sides cancel.
 //!
-//! Cost: linear, and n log n on 64-bit integers for duplicate vertices; exact arithmetic only for triangles that are
-//! nearly degenerate.
+//! Cost: linear, shared out among threads; exact arithmetic only for triangles that are nearly degenerate.
 
 use super::edges::EdgeTable;
 use super::projection::collinear;
+use crate::base::parallel::map_ranges;
 use crate::base::{Culprit, DefectKind, VertexId};
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Elements in one task at least.
+const LEAST: usize = 1 << 13;
 
 /// Vertices with a coordinate that is not finite.
 pub fn non_finite(vertices: &[[f64; 3]], defects: &mut Vec<Culprit>) {
-    for (v, x) in vertices.iter().enumerate() {
-        if !is_finite(x) {
-            defects.push(Culprit::new(DefectKind::NonFiniteCoordinate, &[v as i64]));
-        }
-    }
+    let found = collect(vertices.len(), |v| !is_finite(&vertices[v]));
+    defects.extend(found.iter().map(|&v| Culprit::new(DefectKind::NonFiniteCoordinate, &[v as i64])));
+}
+
+/// Positions below `count` that are found, rising.
+fn collect(count: usize, found: impl Fn(usize) -> bool + Sync) -> Vec<usize> {
+    map_ranges(count, LEAST, |range| range.filter(|&i| found(i)).collect::<Vec<_>>()).concat()
 }
 
 #[inline(always)]
@@ -30,11 +36,8 @@ pub fn is_finite(x: &[f64; 3]) -> bool {
 
 /// Corner indices outside `0..vertex_count`.
 pub fn out_of_range(vertex_count: usize, triangles: &[[i32; 3]], defects: &mut Vec<Culprit>) {
-    for (t, corners) in triangles.iter().enumerate() {
-        if corners.iter().all(|&i| in_range(i, vertex_count)) {
-            continue;
-        }
-        for (k, &i) in corners.iter().enumerate() {
+    for t in collect(triangles.len(), |t| !triangles[t].iter().all(|&i| in_range(i, vertex_count))) {
+        for (k, &i) in triangles[t].iter().enumerate() {
             if !in_range(i, vertex_count) {
                 defects.push(Culprit::new(DefectKind::IndexOutOfRange, &[t as i64, k as i64, i as i64]));
             }
@@ -48,31 +51,46 @@ pub fn in_range(index: i32, vertex_count: usize) -> bool {
     (index as u32 as usize) < vertex_count
 }
 
-/// Groups of vertices with equal coordinates, as pairs (lowest of the group, another), sorted. `used` lists the
+/// Groups of vertices with equal coordinates, as pairs (lowest of the group, another), sorted. `counts` tells which
 /// vertices to compare, finite and without −0.
 ///
-/// Sorted by 32 bits of a mixture of the coordinates (a sort of plain integers), then by the coordinates themselves
-/// among equals.
-pub fn duplicates(vertices: &[[f64; 3]], used: impl Iterator<Item = u32>) -> Vec<[u32; 2]> {
-    let mut keys: Vec<u64> = used.map(|v| mixture(&vertices[v as usize]) | v as u64).collect();
-    keys.sort_unstable();
-    let mut pairs = Vec::new();
-    let mut group: Vec<u32> = Vec::new();
-    let mut start = 0;
-    for i in 1..=keys.len() {
-        if i < keys.len() && keys[i] >> 32 == keys[start] >> 32 {
-            continue;
-        }
-        if i - start > 1 {
-            group.clear();
-            group.extend(keys[start..i].iter().map(|&k| k as u32));
-            let bits = |&v: &u32| vertices[v as usize].map(f64::to_bits);
-            group.sort_by(|a, b| bits(a).cmp(&bits(b)).then(a.cmp(b)));
-            for same in group.chunk_by(|a, b| bits(a) == bits(b)) {
-                pairs.extend(same[1..].iter().map(|&v| [same[0], v]));
+/// A vertex marks a bit that a mixture of its coordinates names, out of sixteen bits per vertex; only where a bit was marked twice are the
+/// vertices sorted and compared (one in sixteen or so, and all that are equal). Which bits those are does not depend on
+/// the order of the marks.
+pub fn duplicates(vertices: &[[f64; 3]], counts: impl Fn(u32) -> bool + Sync) -> Vec<[u32; 2]> {
+    let words = (vertices.len() / 4).next_power_of_two();
+    let table = || -> Vec<AtomicU64> { (0..words).map(|_| AtomicU64::new(0)).collect() };
+    let (marked, again) = (table(), table());
+    let place = |v: u32| {
+        let bits = mixture(&vertices[v as usize]) >> 32;
+        ((bits >> 6) as usize & (words - 1), 1u64 << (bits & 63))
+    };
+    let alone = rayon::current_num_threads() == 1;
+    map_ranges(vertices.len(), LEAST, |range| {
+        for v in range.map(|v| v as u32).filter(|&v| counts(v)) {
+            let (word, bit) = place(v);
+            let before = if alone {
+                let before = marked[word].load(Ordering::Relaxed);
+                marked[word].store(before | bit, Ordering::Relaxed);
+                before
+            } else {
+                marked[word].fetch_or(bit, Ordering::Relaxed)
+            };
+            if before & bit != 0 {
+                again[word].fetch_or(bit, Ordering::Relaxed);
             }
         }
-        start = i;
+    });
+    let candidates = collect(vertices.len(), |v| {
+        let (word, bit) = place(v as u32);
+        again[word].load(Ordering::Relaxed) & bit != 0 && counts(v as u32)
+    });
+    let bits = |v: usize| vertices[v].map(f64::to_bits);
+    let mut keys: Vec<([u64; 3], u32)> = candidates.into_iter().map(|v| (bits(v), v as u32)).collect();
+    keys.sort_unstable();
+    let mut pairs = Vec::new();
+    for same in keys.chunk_by(|a, b| a.0 == b.0) {
+        pairs.extend(same[1..].iter().map(|&(_, v)| [same[0].1, v]));
     }
     pairs.sort_unstable();
     pairs
@@ -91,28 +109,29 @@ fn mixture(x: &[f64; 3]) -> u64 {
 }
 
 /// Triangles whose corners lie on a line. Those with a corner that is not finite cannot be judged.
-pub fn degenerate(vertices: &[[f64; 3]], triangles: &[[VertexId; 3]], mut found: impl FnMut(usize)) {
-    for (t, &[a, b, c]) in triangles.iter().enumerate() {
+pub fn degenerate(vertices: &[[f64; 3]], triangles: &[[VertexId; 3]], found: impl FnMut(usize)) {
+    let is_degenerate = |t: usize| {
+        let [a, b, c] = triangles[t];
         let (pa, pb, pc) = (&vertices[a.at()], &vertices[b.at()], &vertices[c.at()]);
         let repeated = a == b || b == c || c == a;
-        if repeated || ([pa, pb, pc].into_iter().all(is_finite) && collinear(pa, pb, pc)) {
-            found(t);
-        }
-    }
+        repeated || ([pa, pb, pc].into_iter().all(is_finite) && collinear(pa, pb, pc))
+    };
+    collect(triangles.len(), is_degenerate).into_iter().for_each(found);
 }
 
 /// Edges whose uses do not balance: `found(edge, kind)`.
 pub fn unbalanced(table: &EdgeTable, mut found: impl FnMut(usize, DefectKind)) {
-    for (e, uses) in table.edge_uses.rows().enumerate() {
+    let is_unbalanced = |e: usize| {
+        let uses = table.edge_uses.row(e);
         // The usual edge first: two uses, opposite.
-        if uses.len() == 2 && uses[0].forward() != uses[1].forward() {
-            continue;
+        if let [a, b] = uses {
+            return a.forward() == b.forward();
         }
-        let forward = uses.iter().filter(|u| u.forward()).count();
-        if 2 * forward != uses.len() {
-            let even = uses.len() % 2 == 0;
-            found(e, if even { DefectKind::InconsistentOrientation } else { DefectKind::OpenEdge });
-        }
+        2 * uses.iter().filter(|u| u.forward()).count() != uses.len()
+    };
+    for e in collect(table.edges.len(), is_unbalanced) {
+        let even = table.edge_uses.row(e).len() % 2 == 0;
+        found(e, if even { DefectKind::InconsistentOrientation } else { DefectKind::OpenEdge });
     }
 }
 

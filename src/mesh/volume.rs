@@ -8,6 +8,7 @@
 //! undecided shell.
 
 use super::projection::{ROUNDOFF, seen_along};
+use crate::base::parallel::map_ranges;
 use crate::base::{Csr, VertexId};
 use crate::exact::Sign;
 use rug::Integer;
@@ -21,6 +22,16 @@ struct Sum {
     terms: f64,
 }
 
+impl Sum {
+    #[inline(always)]
+    fn add(&mut self, o: &Sum) {
+        self.value += o.value;
+        self.magnitude += o.magnitude;
+        self.largest = self.largest.max(o.largest);
+        self.terms += o.terms;
+    }
+}
+
 /// The sign of the volume of each of `shell_count` shells; `shell_of` gives the shell of each triangle, or `u32::MAX` for
 /// triangles of none. Coordinates are finite.
 pub fn volume_signs(
@@ -29,38 +40,49 @@ pub fn volume_signs(
     shell_of: &[u32],
     shell_count: usize,
 ) -> Vec<Sign> {
-    let mut sums = vec![Sum::default(); shell_count];
     let mut origins = vec![[f64::NAN; 3]; shell_count];
+    let mut missing = shell_count;
     for (corners, &shell) in triangles.iter().zip(shell_of) {
-        if shell == u32::MAX {
-            continue;
+        if missing == 0 {
+            break;
         }
-        let [a, b, c] = corners.map(|v| vertices[v.at()]);
-        let o = &mut origins[shell as usize];
-        if o[0].is_nan() {
-            *o = a;
+        if shell != u32::MAX && origins[shell as usize][0].is_nan() {
+            origins[shell as usize] = vertices[corners[0].at()];
+            missing -= 1;
         }
-        let minus = |p: [f64; 3]| [p[0] - o[0], p[1] - o[1], p[2] - o[2]];
-        let (a, b, c) = (minus(a), minus(b), minus(c));
-        let mut term = 0.0;
-        let mut magnitude = 0.0;
-        for (i, a) in a.into_iter().enumerate() {
-            let (j, k) = seen_along(i);
-            let (p, q) = (b[j] * c[k], b[k] * c[j]);
-            term += a * (p - q);
-            magnitude += a.abs() * (p.abs() + q.abs());
+    }
+    // With many shells one sum per shell and range would cost more than it saves.
+    let least = if shell_count > 64 { triangles.len() } else { 1 << 13 };
+    let parts = map_ranges(triangles.len(), least, |range| {
+        let mut sums = vec![Sum::default(); shell_count];
+        for (corners, &shell) in triangles[range.clone()].iter().zip(&shell_of[range]) {
+            if shell == u32::MAX {
+                continue;
+            }
+            let o = &origins[shell as usize];
+            let minus = |p: [f64; 3]| [p[0] - o[0], p[1] - o[1], p[2] - o[2]];
+            let [a, b, c] = corners.map(|v| minus(vertices[v.at()]));
+            let mut term = 0.0;
+            let mut magnitude = 0.0;
+            for (i, a) in a.into_iter().enumerate() {
+                let (j, k) = seen_along(i);
+                let (p, q) = (b[j] * c[k], b[k] * c[j]);
+                term += a * (p - q);
+                magnitude += a.abs() * (p.abs() + q.abs());
+            }
+            let largest = a[0].abs().max(a[1].abs()).max(a[2].abs());
+            sums[shell as usize].add(&Sum { value: term, magnitude, largest, terms: 1.0 });
         }
-        let largest = a[0].abs().max(a[1].abs()).max(a[2].abs());
-        let sum = &mut sums[shell as usize];
-        sum.value += term;
-        sum.magnitude += magnitude;
-        sum.largest = sum.largest.max(largest);
-        sum.terms += 1.0;
+        sums
+    });
+    let mut sums = vec![Sum::default(); shell_count];
+    for part in &parts {
+        sums.iter_mut().zip(part).for_each(|(sum, more)| sum.add(more));
     }
     let mut members: Option<Csr<u32>> = None;
     let mut sign = |s: usize| {
         let Sum { value, magnitude, largest, terms } = sums[s];
-        // A triple product of rounded differences has at most 3 + 2 + 1 + 2 roundings, the running sum one per term;
+        // A triple product of rounded differences has at most 3 + 2 + 1 + 2 roundings, the running sum one per term (whatever the order of the terms);
         // what the bound itself loses is within the surplus. Underflow takes at most 2^-1075 from each product, times
         // the factor that follows. With overflow the magnitude is infinite or NaN.
         let bound = (terms + 16.0) * ROUNDOFF * 1.25 * magnitude + terms * (largest * 1e-300 + 1e-280);
