@@ -90,13 +90,18 @@ bool meet_wrongly(const Triangles &all, const Corners &a, const Corners &b)
     return !separated(all, a, b) && !separated(all, b, a) && !only_shared(all, a, b);
 }
 
-/* All distinct triangles, by boxes. */
+/* All distinct triangles, by boxes: how many are degenerate, and how many pairs meet wrongly. */
 std::int64_t check_boxes(const Triangles &all)
 {
     using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::int64_t>;
     std::vector<Box> boxes;
-    for (std::int64_t t = 0; t < all.corners.count; ++t) boxes.emplace_back(all.triangle<Kernel>(all.at(t)).bbox(), t);
     std::int64_t wrong = 0;
+    for (std::int64_t t = 0; t < all.corners.count; ++t) {
+        const auto triangle = all.triangle<Kernel>(all.at(t));
+        /* Without area: wrong, and nothing to ask CGAL's triangle test about. */
+        if (triangle.is_degenerate()) ++wrong;
+        else boxes.emplace_back(triangle.bbox(), t);
+    }
     CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box &a, const Box &b) {
         wrong += meet_wrongly(all, all.at(a.info()), all.at(b.info()));
     });
@@ -310,9 +315,9 @@ int main()
                                        "pinion.off",      "fandisk.off", "triceratops.off", "larger_sphere.off"};
     std::vector<std::string> files;
     for (const auto &entry : std::filesystem::directory_iterator(folder)) {
-        const std::string file = entry.path().filename().string();
+        const std::string file = entry.path().filename().string(), extension = entry.path().extension().string();
         const bool listed = std::find(few.begin(), few.end(), file) != few.end();
-        if (listed || (everything && entry.path().extension() == ".off")) files.push_back(file);
+        if (listed || (everything && (extension == ".off" || extension == ".obj" || extension == ".stl"))) files.push_back(file);
     }
     std::sort(files.begin(), files.end());
     for (const std::string &file : files) {

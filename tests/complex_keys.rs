@@ -270,9 +270,18 @@ fn models() {
         if let Some(mesh) = on_integers(soup) {
             check("integers", &mesh, &incident(&mesh, 8, &mut random));
         }
-        cuts += 4;
+        // Distinct at least, under every kind of plane set.
+        for (what, planes) in [
+            ("R10", arbitrary(&mesh, 10, &mut random)),
+            ("R100", arbitrary(&mesh, 100, &mut random)),
+            ("box", grid(&mesh, 2)),
+        ] {
+            let made = cut(&mesh, &planes, &CutOptions::default(), &mut Run::quiet()).unwrap();
+            told(&format!("{name} {what}"), &made.complex, &GlobalIds::default());
+        }
+        cuts += 7;
     });
-    assert!(!there || cuts > 40, "{cuts} cuts");
+    assert!(!there || cuts > 70, "{cuts} cuts");
 }
 
 #[test]
