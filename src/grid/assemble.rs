@@ -2,14 +2,13 @@
 //! triangles, nodes.
 
 use super::cells::Cells;
-use super::data::{CUT, EMPTY, FULL, GridCells};
+use super::data::{CUT, EMPTY, FULL, GridCells, Origins};
 use super::lattice::Lattice;
 use super::pieces::Pieces;
 use super::points::Points;
 use super::squares::Squares;
 use super::touched::{Bits, Touched};
 use crate::base::{CellId, VertexId};
-use crate::complex::Origin;
 use crate::mesh::TriMesh;
 use std::sync::Arc;
 
@@ -99,7 +98,9 @@ pub fn assemble(found: Found) -> GridCells {
     let numbering = renumber(&pieces, &squares, kinds, points.origins.len());
     let number = &numbering.number;
     keep(&mut points.on_planes, number);
-    keep(&mut points.origins, number);
+    let used = points.origins.iter().zip(number).filter(|(_, n)| n.is_some()).map(|(o, _)| *o);
+    let origins = Origins::new(&lattice, used);
+    points.origins = Vec::new();
     keep(&mut points.coords, number);
     keep(&mut points.residuals, &number[kinds[0]..kinds[2]]);
     let walls = pieces.triangle.len();
@@ -109,7 +110,7 @@ pub fn assemble(found: Found) -> GridCells {
         constructed: numbering.ends[0] as u32..numbering.ends[2] as u32,
         residuals: points.residuals,
         extent: points.extent,
-        origins: points.origins,
+        origins,
         coords: points.coords,
         wall_triangle: pieces.triangle,
         wall_cell: vec![CellId::NONE; walls],
@@ -153,6 +154,5 @@ pub fn assemble(found: Found) -> GridCells {
     }
     grid.mesh = mesh;
     grid.lattice = lattice;
-    debug_assert!(grid.origins.iter().all(|o| !matches!(o, Origin::Mesh(v) if v.is_none())));
     grid
 }

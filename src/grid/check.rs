@@ -1,7 +1,7 @@
 //! Is a `GridCells` what its fields say?
 
 use super::data::{FULL_CELL, GridCells};
-use crate::base::{CellId, FaceId};
+use crate::base::{CellId, FaceId, VertexId};
 use crate::complex::Origin;
 
 impl GridCells {
@@ -72,15 +72,15 @@ impl GridCells {
             };
             ensure(both != 0 && seen == both, "each half-face of a face is in its cell")?;
         }
-        for v in 0..self.origins.len() {
-            for a in (0..3).filter(|a| self.on_planes[v] >> a & 1 != 0) {
+        for v in (0..self.vertex_count()).map(VertexId::of) {
+            for a in (0..3).filter(|a| self.on_planes[v.at()] >> a & 1 != 0) {
                 ensure(
-                    self.lattice.nodes[a].binary_search_by(|n| n.total_cmp(&self.coords[v][a])).is_ok(),
+                    self.lattice.nodes[a].binary_search_by(|n| n.total_cmp(&self.coords[v.at()][a])).is_ok(),
                     "a vertex on a plane",
                 )?;
             }
-            if let Origin::Mesh(m) = self.origins[v] {
-                ensure(self.coords[v] == self.mesh.vertices[m.at()], "a mesh vertex's coordinates")?;
+            if let Origin::Mesh(m) = self.origin(v) {
+                ensure(self.coords[v.at()] == self.mesh.vertices[m.at()], "a mesh vertex's coordinates")?;
             }
         }
         Ok(())

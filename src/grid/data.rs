@@ -3,7 +3,7 @@
 //! the lattice implies is not stored.
 
 use super::lattice::Lattice;
-use crate::base::{BoxId, CellId, Csr, FaceId, LoopId, NodeId, PlaneId, TriangleId, VertexId};
+use crate::base::{BoxId, CellId, Csr, EdgeId, FaceId, LoopId, NodeId, PlaneId, TriangleId, VertexId};
 use crate::complex::{HalfFace, Origin};
 use crate::exact::Plane;
 use crate::mesh::TriMesh;
@@ -31,12 +31,12 @@ pub struct GridCells {
     /// `EMPTY`, `FULL` or `CUT` per box.
     pub flags: Vec<u8>,
 
-    /// Symbolic vertices (planes by `Lattice::plane`) and their coordinates, correctly rounded: mesh vertices, points on mesh
-    /// edges, points in triangles, nodes; only those that some face uses.
-    pub origins: Vec<Origin>,
+    /// Vertices that some face uses, with correctly rounded coordinates: mesh vertices, points on mesh edges, points in triangles, nodes.
     pub coords: Vec<[f64; 3]>,
     /// Bit `a`: the vertex lies on a grid plane normal to axis `a` (exactly; its coordinate is that plane's node).
     pub on_planes: Vec<u8>,
+    /// What vertices are symbolically, packed (see [`GridCells::origin`]).
+    pub origins: Origins,
     /// Vertices `constructed.start..constructed.end` are points on mesh edges and in triangles; all others are exact in `coords`.
     /// For these, what rounding took away: |x − (coords + residuals)| ≤ 2⁻⁹⁰·`extent` per coordinate (and +0 where a coordinate is exact).
     pub constructed: std::ops::Range<u32>,
@@ -71,7 +71,71 @@ pub struct GridCells {
     pub shell_faces: Csr<HalfFace>,
 }
 
+/// Origins in five bytes a vertex: planes are told by the axes that they are normal to, since coordinates tell the rest. A `Vec<Origin>` takes
+/// sixteen, and vertices are what a grid has most of.
+#[derive(Clone, Debug, Default)]
+pub struct Origins {
+    /// The mesh vertex, mesh edge or triangle; nothing for a node.
+    carriers: Vec<u32>,
+    /// The kind, and the axis of an edge's plane, or the axis that is neither of a triangle's two planes'.
+    codes: Vec<u8>,
+}
+
+const ON_MESH: u8 = 0;
+const ON_EDGE: u8 = 4;
+const IN_TRIANGLE: u8 = 8;
+const NODE: u8 = 12;
+
+impl Origins {
+    pub fn new(lattice: &Lattice, origins: impl Iterator<Item = Origin>) -> Self {
+        let mut out = Self::default();
+        let axis = |p: PlaneId| lattice.plane_at(p).0 as u8;
+        for origin in origins {
+            let (carrier, code) = match origin {
+                Origin::Mesh(v) => (v.0, ON_MESH),
+                Origin::Edge(e, p) => (e.0, ON_EDGE + axis(p)),
+                Origin::Triangle(t, p, q) => (t.0, IN_TRIANGLE + 3 - axis(p) - axis(q)),
+                Origin::Planes(..) => (0, NODE),
+            };
+            out.carriers.push(carrier);
+            out.codes.push(code);
+        }
+        out
+    }
+    pub fn len(&self) -> usize {
+        self.codes.len()
+    }
+    pub fn is_empty(&self) -> bool {
+        self.codes.is_empty()
+    }
+}
+
 impl GridCells {
+    pub fn vertex_count(&self) -> usize {
+        self.coords.len()
+    }
+    /// The plane normal to an axis through a vertex that is on one. Cost: a binary search.
+    pub fn plane_through(&self, v: VertexId, axis: usize) -> PlaneId {
+        let x = self.coords[v.at()][axis];
+        let node = self.lattice.nodes[axis].partition_point(|n| *n < x);
+        debug_assert!(self.lattice.nodes[axis][node] == x && self.on_planes[v.at()] >> axis & 1 != 0);
+        self.lattice.plane(axis, node)
+    }
+    /// What a vertex is, symbolically (planes by `Lattice::plane`).
+    pub fn origin(&self, v: VertexId) -> Origin {
+        let (carrier, code) = (self.origins.carriers[v.at()], self.origins.codes[v.at()]);
+        let plane = |axis: usize| self.plane_through(v, axis);
+        let axis = code as usize & 3;
+        match code & !3 {
+            ON_MESH => Origin::Mesh(VertexId(carrier)),
+            ON_EDGE => Origin::Edge(EdgeId(carrier), plane(axis)),
+            IN_TRIANGLE => {
+                let [a, b] = super::touched::others(axis);
+                Origin::Triangle(TriangleId(carrier), plane(a), plane(b))
+            }
+            _ => Origin::Planes(plane(0), plane(1), plane(2)),
+        }
+    }
     pub fn face_count(&self) -> usize {
         self.face_loops.len() - 1
     }

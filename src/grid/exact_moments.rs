@@ -11,7 +11,7 @@ use rug::{Integer, Rational};
 
 /// The exact coordinates of a vertex.
 pub fn vertex(g: &GridCells, v: crate::base::VertexId) -> Coordinates {
-    rational(&crate::complex::data::origin_point(&g.mesh, &g.planes, g.origins[v.at()]))
+    rational(&crate::complex::data::origin_point(&g.mesh, &g.planes, g.origin(v)))
 }
 
 fn times(a: &Rational, b: &Rational) -> Rational {

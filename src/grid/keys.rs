@@ -32,7 +32,7 @@ fn corner(g: &GridCells, v: VertexId) -> Corner<Planes> {
         planes.ids[planes.count] = g.lattice.plane(axis, node);
         planes.count += 1;
     }
-    Corner { origin: g.origins[v.at()], planes }
+    Corner { origin: g.origin(v), planes }
 }
 
 /// The keys of all vertices and of all faces. `triangles`: the global id of each triangle of the mesh; `None`: its position.

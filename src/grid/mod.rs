@@ -39,7 +39,7 @@ use pieces::Pieces;
 use std::sync::{Arc, OnceLock};
 use touched::Touched;
 
-pub use data::{CUT, EMPTY, FULL, FULL_CELL, GridCells};
+pub use data::{CUT, EMPTY, FULL, FULL_CELL, GridCells, Origins};
 pub use keys::keys;
 pub use lattice::Lattice;
 pub use to_complex::to_complex;

@@ -13,13 +13,8 @@ use rayon::prelude::*;
 
 /// All planes through a vertex, by rising id.
 pub fn planes_through(grid: &GridCells, v: VertexId) -> impl Iterator<Item = PlaneId> + '_ {
-    let (bits, x) = (grid.on_planes[v.at()], grid.coords[v.at()]);
-    (0..3).filter(move |a| bits >> a & 1 != 0).map(move |a| {
-        // On the plane the coordinate is exact: it is the node.
-        let node = grid.lattice.nodes[a].partition_point(|n| *n < x[a]);
-        debug_assert_eq!(grid.lattice.nodes[a][node], x[a]);
-        grid.lattice.plane(a, node)
-    })
+    let bits = grid.on_planes[v.at()];
+    (0..3).filter(move |a| bits >> a & 1 != 0).map(move |a| grid.plane_through(v, a))
 }
 
 /// The lowest plane that holds a whole wall.
@@ -39,8 +34,8 @@ pub fn to_complex(grid: &GridCells) -> Complex {
     let mut face_cells: Vec<[CellId; 2]> = grid.wall_cell.iter().map(|&c| [c, CellId::NONE]).collect();
     face_cells.extend(grid.square_cells.iter().map(|cells| cells.map(real)));
     let (edges, corner_edges) = find_edges(&grid.loop_offsets, &grid.corners);
-    let mut vertex_planes = Csr::with_capacity(grid.origins.len(), 2 * grid.origins.len());
-    for v in 0..grid.origins.len() {
+    let mut vertex_planes = Csr::with_capacity(grid.vertex_count(), 2 * grid.vertex_count());
+    for v in 0..grid.vertex_count() {
         vertex_planes.items.extend(planes_through(grid, VertexId::of(v)));
         vertex_planes.end_row();
     }
@@ -61,7 +56,7 @@ pub fn to_complex(grid: &GridCells) -> Complex {
     Complex {
         mesh: grid.mesh.clone(),
         planes: grid.planes.clone(),
-        origins: grid.origins.clone(),
+        origins: (0..grid.vertex_count()).map(|v| grid.origin(VertexId::of(v))).collect(),
         coords: grid.coords.clone(),
         vertex_planes,
         edges,

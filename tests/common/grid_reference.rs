@@ -6,7 +6,7 @@ use lapidary::base::{BoxId, CellId, Csr, FaceId, NodeId, PlaneId, Run, VertexId}
 use lapidary::complex::{Complex, HalfFace, Origin, SupportId};
 use lapidary::cut::{CutOptions, cut};
 use lapidary::exact::{rational, round_rational};
-use lapidary::grid::{CUT, EMPTY, FULL, FULL_CELL, GridCells, Lattice};
+use lapidary::grid::{CUT, EMPTY, FULL, FULL_CELL, GridCells, Origins, Lattice};
 use lapidary::mesh::TriMesh;
 use rug::Rational;
 use std::sync::Arc;
@@ -131,9 +131,9 @@ pub fn reference(mesh: Arc<TriMesh>, lattice: Lattice) -> Reference {
     let mut vertex_number = vec![VertexId::NONE; c.vertex_count()];
     let before = |k: usize| order.iter().filter(|&&v| kind(v) < k).count() as u32;
     g.constructed = before(1)..before(2);
+    g.origins = Origins::new(&lattice, order.iter().map(|&v| c.origins[v]));
     for (i, &v) in order.iter().enumerate() {
         vertex_number[v] = VertexId::of(i);
-        g.origins.push(c.origins[v]);
         g.coords.push(c.coords[v]);
         g.on_planes.push(c.vertex_planes.row(v).iter().fold(0, |m, &p| m | 1 << lattice.plane_at(p).0));
         if kind(v) == 1 {
