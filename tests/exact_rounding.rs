@@ -135,7 +135,7 @@ fn points_on_axis_parallel_planes() {
             4 => f64::from_bits(r.below(1 << 53)) * [1.0, -1.0][r.below(2) as usize],
             _ => 1.0 + r.below(1 << 10) as f64 * f64::EPSILON,
         };
-        let mut vertex = |r: &mut Random| -> [f64; 3] { [magnitude(r), magnitude(r), magnitude(r)] };
+        let vertex = |r: &mut Random| -> [f64; 3] { [magnitude(r), magnitude(r), magnitude(r)] };
         let t = [vertex(&mut r), vertex(&mut r), vertex(&mut r)];
         let axis = r.below(3) as usize;
         let at = between(&mut r, t[0][axis], t[1][axis]);
