@@ -73,8 +73,45 @@ static void keep(const void *bytes, size_t size)
     result_size += size;
 }
 
-static void cut_and_keep(int32_t threads, const double *xyz, const int32_t *indices, int64_t triangles, int64_t vertices,
-                         const double *planes, int64_t n_planes)
+/* The boxes of a grid with the same five nodes along each axis; fluid inside or outside. */
+static void grid_and_keep(lap_context *context, const lap_mesh *mesh, const double *nodes, int32_t outside)
+{
+    lap_grid *grid = NULL;
+    lap_grid_options options;
+    int64_t count = 0;
+    const double *a = NULL, *b = NULL, *c = NULL;
+    const int64_t *keys = NULL;
+    const uint8_t *flags = NULL;
+    const int32_t *cells = NULL;
+
+    CALL(lap_grid_options_init(&options, (int32_t)sizeof options));
+    options.outside = outside;
+    options.check = 1;
+    CALL(lap_grid_new(context, mesh, 5, nodes, 5, nodes, 5, nodes, &options, &grid));
+    CALL(lap_grid_flags(grid, &count, &flags));
+    keep(flags, (size_t)count);
+    CALL(lap_grid_vertices(grid, &count, &a, NULL));
+    keep(a, (size_t)count * 3 * sizeof *a);
+    CALL(lap_grid_cell_moments(grid, &count, &a, &b, &c, NULL));
+    keep(a, (size_t)count * sizeof *a);
+    keep(b, (size_t)count * sizeof *b);
+    keep(c, (size_t)count * 3 * sizeof *c);
+    CALL(lap_grid_cell_boundaries(grid, &count, &a, &b));
+    keep(a, (size_t)count * 3 * sizeof *a);
+    keep(b, (size_t)count * 3 * sizeof *b);
+    CALL(lap_grid_plane_face_moments(grid, &count, &a, &b, &c, NULL));
+    keep(a, (size_t)count * sizeof *a);
+    keep(b, (size_t)count * sizeof *b);
+    keep(c, (size_t)count * 3 * sizeof *c);
+    CALL(lap_grid_face_keys(grid, &count, &keys));
+    keep(keys, (size_t)count * 2 * sizeof *keys);
+    CALL(lap_grid_aggregate(context, grid, 0.3, NULL, NULL, &count, &cells, NULL, NULL, NULL));
+    keep(cells, (size_t)count * sizeof *cells);
+    CALL(lap_grid_free(grid));
+}
+
+static void cut_and_keep(int32_t threads, const double *nodes, const double *xyz, const int32_t *indices,
+                         int64_t triangles, int64_t vertices, const double *planes, int64_t n_planes)
 {
     lap_context *context = NULL;
     lap_mesh *mesh = NULL;
@@ -120,6 +157,7 @@ static void cut_and_keep(int32_t threads, const double *xyz, const int32_t *indi
     keep(b, (size_t)a[count] * sizeof *b);
     CALL(lap_complex_check(context, c));
     CALL(lap_cut_free(cut));
+    for (i = 0; i < 2; ++i) grid_and_keep(context, mesh, nodes, (int32_t)i);
     CALL(lap_mesh_free(mesh));
     CALL(lap_context_free(context));
 }
@@ -131,6 +169,9 @@ static const int32_t cube[36] = {0, 2, 1, 0, 3, 2, 4, 5, 6, 4, 6, 7, 0, 1, 5, 0,
 
 /* Ordinary, subnormal (flushed to zero by a careless library), and at the end of the range (where products overflow). */
 static const double ordinary[24] = CUBE(1.1), tiny[24] = CUBE(0x1.8p-1060), huge[24] = CUBE(0x1.fp1000);
+/* Grids around the cube, through its sides, and inside. Constants: no host computes them. */
+#define NODES(s) {-1.5 * (s), -0.375 * (s), 0.125 * (s), 0.75 * (s), 1.75 * (s)}
+static const double ordinary_nodes[5] = NODES(1), tiny_nodes[5] = NODES(0x1p-1060), huge_nodes[5] = NODES(0x1p1000);
 static const double planes[20] = {0.3, 0.2, 0.1, 0,    0.1, -0.7, 0.3, 0, /* three through a point */
                                   1,   1,   1,   0,    0,   0,    1,   0, -0.9, 0.4, 0.1, 0};
 static const double ordinary_planes[12] = {0.3, 0.2, 0.1, -0.05, 0.7, -0.1, 0.2, 1e-17, 1e-200, 1e-250, 3e-200, 1e-201};
@@ -172,12 +213,12 @@ int main(int argc, char **argv)
     CHECK((__builtin_ia32_stmxcsr() & 0x8040) == 0x8040);
 #endif
     for (threads = 1; threads <= 2; ++threads) {
-        cut_and_keep(threads, ordinary, cube, 12, 8, planes, 5);
-        cut_and_keep(threads, ordinary, cube, 12, 8, ordinary_planes, 3);
-        cut_and_keep(threads, tiny, cube, 12, 8, planes, 5);
-        cut_and_keep(threads, tiny, cube, 12, 8, tiny_planes, 2);
-        cut_and_keep(threads, huge, cube, 12, 8, planes, 5);
-        cut_and_keep(threads, huge, cube, 12, 8, huge_planes, 2);
+        cut_and_keep(threads, ordinary_nodes, ordinary, cube, 12, 8, planes, 5);
+        cut_and_keep(threads, ordinary_nodes, ordinary, cube, 12, 8, ordinary_planes, 3);
+        cut_and_keep(threads, tiny_nodes, tiny, cube, 12, 8, planes, 5);
+        cut_and_keep(threads, tiny_nodes, tiny, cube, 12, 8, tiny_planes, 2);
+        cut_and_keep(threads, huge_nodes, huge, cube, 12, 8, planes, 5);
+        cut_and_keep(threads, huge_nodes, huge, cube, 12, 8, huge_planes, 2);
     }
     CHECK(callbacks > 0);
     CHECK(result_size > 0);

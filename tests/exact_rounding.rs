@@ -104,6 +104,91 @@ fn edge_midpoints() {
     assert!(exact >= ties);
 }
 
+/// Points on edges and in triangles by axis-parallel planes with normals of length 1 and others: what a Cartesian grid asks for. Mixed
+/// magnitudes, exact ties and near ties, subnormals, planes through corners or nearly. Where numbers are ordinary, interpolation must decide.
+#[test]
+fn points_on_axis_parallel_planes() {
+    let mut r = Random(77);
+    let unit = |r: &mut Random, kind: usize, axis: usize, at: f64| {
+        let mut n = [0.0; 3];
+        n[axis] = match kind {
+            0..3 => [1.0, -1.0][r.below(2) as usize],
+            _ => [0.5, -3.0, 1.0][r.below(3) as usize],
+        };
+        Plane { n, d: -at * n[axis] }
+    };
+    let between = |r: &mut Random, a: f64, b: f64| match r.below(4) {
+        0 => (a + b) / 2.0,
+        1 => a.min(b).next_up(),
+        2 => a + (b - a) * 0.125,
+        _ => a + (b - a) * r.unit(),
+    };
+    let (mut n, mut ties) = (0u64, 0u64);
+    for i in 0..40_000 {
+        let kind = i % 6;
+        let magnitude = |r: &mut Random| match kind {
+            0 => r.signed(),
+            // Short mantissas: exact ties.
+            1 => (r.below(1 << 20) as f64 - 524_288.0) * 2f64.powi(r.below(3) as i32 * 33),
+            2 => r.signed() * 2f64.powi(r.below(600) as i32 - 300),
+            3 => (r.below(64) as f64 - 32.0) / 8.0,
+            4 => f64::from_bits(r.below(1 << 53)) * [1.0, -1.0][r.below(2) as usize],
+            _ => 1.0 + r.below(1 << 10) as f64 * f64::EPSILON,
+        };
+        let vertex = |r: &mut Random| -> [f64; 3] { [magnitude(r), magnitude(r), magnitude(r)] };
+        let t = [vertex(&mut r), vertex(&mut r), vertex(&mut r)];
+        let axis = r.below(3) as usize;
+        let at = between(&mut r, t[0][axis], t[1][axis]);
+        let p = unit(&mut r, kind, axis, at);
+        let other = (axis + 1 + r.below(2) as usize) % 3;
+        let at = between(&mut r, t[1][other], t[2][other]);
+        let q = unit(&mut r, kind, other, at);
+        let edge = Point::EdgePlane { a: t[0], b: t[1], p };
+        let inner = Point::TrianglePlanes { t, p, q };
+        let value = |p: &Plane, x: &[f64; 3]| reference::plane_value(p, &q3(x));
+        // What is asked of the library: ends on different sides, a triangle that the planes meet in one point.
+        let crosses = value(&p, &t[0]) * value(&p, &t[1]) < 0;
+        let areas: Q = (0..3)
+            .map(|i| {
+                let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+                value(&p, &t[j]) * value(&q, &t[k]) - value(&p, &t[k]) * value(&q, &t[j])
+            })
+            .fold(Q::new(), |sum, x| sum + x);
+        for (x, defined) in [(edge, crosses), (inner, areas != 0)] {
+            if !defined {
+                continue;
+            }
+            let exact = rational(&x);
+            let found = round(&x);
+            for i in 0..3 {
+                same_bits(found[i], nearest(&exact[i]), || format!("{i} {x:?}"));
+                let up = Q::from(q_of(found[i].next_up()) + q_of(found[i])) / 2;
+                let down = Q::from(q_of(found[i].next_down()) + q_of(found[i])) / 2;
+                ties += (exact[i] == up || exact[i] == down) as u64;
+                n += 1;
+            }
+        }
+    }
+    println!("{n} coordinates, {ties} exact ties");
+    assert!(ties > 1000);
+
+    counters::enable(true);
+    counters::take();
+    for _ in 0..2000 {
+        let (a, b) = (vector(&mut r, 0), vector(&mut r, 0).map(|x| x + 5.0));
+        let x = Point::EdgePlane { a, b, p: Plane { n: [0.0, 1.0, 0.0], d: -2.5 } };
+        round(&x);
+    }
+    let counts = counters::take();
+    counters::enable(false);
+    assert_eq!(counts.get(Predicate::Rounding, Tier::Filter), 2000);
+    assert!(counts.get(Predicate::Rounding, Tier::Bounded) >= 3999);
+}
+
+fn q_of(x: f64) -> Q {
+    if x.is_finite() { q(x) } else { Q::new() }
+}
+
 /// Coordinates at the ends of the range: subnormal ties, overflow, zero.
 #[test]
 fn ends_of_the_range() {

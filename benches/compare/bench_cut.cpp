@@ -154,10 +154,15 @@ nlohmann::json measure(const Options& options, const Contestant& contestant) {
     const Outcome next = contestant.run(input.mesh, input.planes);
     best.seconds = std::min(best.seconds, next.seconds);
     best.seconds_with_moments = std::min(best.seconds_with_moments, next.seconds_with_moments);
+    best.seconds_prepared = std::min(best.seconds_prepared, next.seconds_prepared);
+    best.seconds_moved = std::min(best.seconds_moved, next.seconds_moved);
   }
   nlohmann::json result{{"seconds", best.seconds}, {"cells", best.cells}, {"volume", best.volume}, {"memory_bytes", memory},
                         {"runs", runs}};
   if (best.seconds_with_moments > 0) result["seconds_with_moments"] = best.seconds_with_moments;
+  if (best.seconds_prepared > 0) result["seconds_prepared"] = best.seconds_prepared;
+  if (best.seconds_moved > 0) result["seconds_moved"] = best.seconds_moved;
+  if (best.faces > 0) result["faces"] = best.faces;
   return result;
 }
 
@@ -168,7 +173,7 @@ void join(nlohmann::json& first, const nlohmann::json& second) {
     first = second;
     return;
   }
-  for (const char* key : {"seconds", "seconds_with_moments"})
+  for (const char* key : {"seconds", "seconds_with_moments", "seconds_prepared", "seconds_moved"})
     if (first.contains(key)) first[key] = std::min(first[key].get<double>(), second[key].get<double>());
   first["memory_bytes"] = std::max(first["memory_bytes"].get<long long>(), second["memory_bytes"].get<long long>());
   first["runs"] = first["runs"].get<long>() + second["runs"].get<long>();

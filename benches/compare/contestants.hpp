@@ -16,7 +16,10 @@ namespace benches {
 struct Outcome {
   double seconds = 0;              // flat arrays to cells
   double seconds_with_moments = 0; // the same and volume and centroid of every cell; 0 where that is not measured
+  double seconds_prepared = 0;     // planes to cells on a mesh that is there already; 0 where that is not measured
+  double seconds_moved = 0;        // new coordinates on the mesh that is there; 0 where that is not measured
   std::int64_t cells = 0;
+  std::int64_t faces = 0;
   double volume = 0; // sum over the cells
 };
 

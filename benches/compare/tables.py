@@ -81,11 +81,38 @@ def growth(reports, what):
         row(report["mesh"], report["plane_set"], report["triangles"], one.get("cells", ""), *times)
 
 
+def goals(reports):
+    """Each row's name says what it is to stay below, in ms; the sphere's rows also give the cost of a face."""
+    print("\nLapidary against its goals: mesh and cut, ms, one thread; then what two threads gain, a cut of a mesh that is there already, new "
+          "coordinates for it, and memory (MiB beyond the input, moments of all cells included).\n")
+    head(["mesh", "planes"], ["goal", "1 thread", "2 threads", "gain", "prepared", "moved", "faces", "memory"])
+    by_planes = {}
+    for report, goal in reports:
+        one, two = (results(report)[name] for name in ("lapidary-1", "lapidary-2"))
+        if "error" in one or "error" in two:
+            row(report["mesh"], report["plane_set"], goal, ours(one), ours(two))
+            continue
+        by_planes[report["mesh"], report["planes"]] = one
+        row(report["mesh"], report["plane_set"], goal, ours(one), ours(two), f"{one['seconds'] / two['seconds']:.2f} x",
+            ms(one["seconds_prepared"]), ms(one["seconds_moved"]), one["faces"], memory(one))
+    few, many = by_planes.get(("icosphere:8", 75)), by_planes.get(("icosphere:8", 300))
+    if few and many:
+        each = (many["seconds"] - few["seconds"]) / (many["faces"] - few["faces"])
+        print(f"\nA face more of the sphere, from 25 to 100 planes per axis: {each * 1e6:.2f} µs (goal 0.7).")
+    print("\nEach row: `build/bench/bin/bench_cut MESH --grid N N N` (or `--random N`) `--peers none --repeat R`, as in scripts/bench.")
+
+
+def goals_of(folder):
+    """Files goal-NUMBER-MILLISECONDS.json."""
+    return [(json.loads(path.read_text()), path.stem.split("-")[2]) for path in sorted(folder.glob("goal-*.json"))]
+
+
 def main():
     folder = pathlib.Path(sys.argv[1])
     compare(read(folder, "compare"))
     growth(read(folder, "planes"), "planes")
     growth(read(folder, "triangles"), "triangles")
+    goals(goals_of(folder))
 
 
 main()

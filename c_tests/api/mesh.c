@@ -281,7 +281,7 @@ static void moved_coordinates(lap_context *context)
     STATUS(LAP_OK, lap_mesh_bounds(mesh, &bounds));
     CHECK(bounds[0] == 0 && bounds[5] == 8);
     STATUS(LAP_OK, lap_cut_complex(cut, &complex));
-    STATUS(LAP_OK, lap_complex_counts(complex, NULL, NULL, NULL, &cells));
+    STATUS(LAP_OK, lap_complex_counts(complex, NULL, NULL, NULL, &cells, NULL, NULL, NULL));
     CHECK(cells == 2);
     STATUS(LAP_OK, lap_complex_check(context, complex));
     STATUS(LAP_OK, lap_cut_free(cut));

@@ -111,11 +111,10 @@ fn nearest(from: f64, rest: Pair, err: f64) -> Option<f64> {
     (below == above).then_some(below)
 }
 
-/// The coordinates of edge ∩ plane that the bounds settle, `None` for the others. The ends are on different sides of the
-/// plane.
+/// The coordinates of edge ∩ plane that the bounds settle, `None` for the others.
 ///
-/// With values v, w at the ends, t = v/(v − w), and x = a + (b − a) t. The values' errors E move t by at most
-/// (E_v + E_w)/|v − w| to first order; twice that is taken, and 24 u² t for the difference and the quotient.
+/// With values v, w at the ends, t = v/(v − w), and x = a + (b − a) t. The errors E_v of v and E of v − w move t by at most
+/// (E_v + |t| E)/|v − w| to first order; twice that is taken, and 32 u² |t| for the quotient.
 pub fn on_edge(a: &[f64; 3], b: &[f64; 3], p: &Plane, open: &[bool; 3]) -> [Option<f64>; 3] {
     let mut out = [None; 3];
     if !(in_range(a) && in_range(b) && plane_in_range(p)) {
@@ -134,7 +133,8 @@ pub fn on_edge(a: &[f64; 3], b: &[f64; 3], p: &Plane, open: &[bool; 3]) -> [Opti
         return out;
     }
     let t = quotient(v, full);
-    let err_t = U2 * 32.0 * t.0.abs() + 2.0 * (ev + ew) / size + LOST * LEAST;
+    let moved = ev + ew + 8.0 * U2 * (v.0.abs() + w.0.abs());
+    let err_t = 32.0 * U2 * t.0.abs() + 2.0 * (ev + t.0.abs() * moved) / size + LOST * LEAST;
     for i in 0..3 {
         if open[i] {
             let d = difference(b[i], a[i]);

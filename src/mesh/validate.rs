@@ -130,7 +130,7 @@ pub fn unbalanced(table: &EdgeTable, mut found: impl FnMut(usize, DefectKind)) {
         2 * uses.iter().filter(|u| u.forward()).count() != uses.len()
     };
     for e in collect(table.edges.len(), is_unbalanced) {
-        let even = table.edge_uses.row(e).len() % 2 == 0;
+        let even = table.edge_uses.row(e).len().is_multiple_of(2);
         found(e, if even { DefectKind::InconsistentOrientation } else { DefectKind::OpenEdge });
     }
 }
