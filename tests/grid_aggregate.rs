@@ -134,8 +134,9 @@ fn slivers_go_to_the_full_box() {
     let a = check("slab", &r.grid, &m, 0.2, None, None);
     let boxes = cell_boxes(&r.grid);
     let mut slivers = 0;
-    for c in 0..r.grid.cell_count() {
-        let at = r.grid.lattice.box_at(boxes[c]);
+    assert_eq!(boxes.len(), r.grid.cell_count());
+    for (c, &b) in boxes.iter().enumerate() {
+        let at = r.grid.lattice.box_at(b);
         if at[0] == 3 {
             slivers += 1;
             assert_eq!(a.in_box[c], r.grid.lattice.box_id([2, at[1], at[2]]));

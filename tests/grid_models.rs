@@ -96,8 +96,8 @@ fn cells6(c: &Complex) -> Residue {
         let mut area = [Residue::ZERO; 3];
         for h in c.cell_faces(k) {
             let (a, cone) = face(h.face());
-            for i in 0..3 {
-                if h.front() { area[i] -= a[i] } else { area[i] += a[i] }
+            for (sum, x) in area.iter_mut().zip(a) {
+                if h.front() { *sum -= x } else { *sum += x }
             }
             if h.front() { total -= cone } else { total += cone }
         }
@@ -282,7 +282,7 @@ fn model(name: &str, soup: &Soup, mesh: &Arc<TriMesh>, count: usize, seed: u64) 
         let expected = if outside { domain - solid } else { solid };
         assert!(volume == expected, "{what}: the volumes do not add up");
         // The outside takes as long again; one side per model suffices for the blocks.
-        if outside == (soup.triangles.len() % 2 == 0) {
+        if outside == (soup.triangles.len().is_multiple_of(2)) {
             blocks_agree(&what, mesh, &nodes, &grid, outside);
         }
     }

@@ -6,7 +6,7 @@ use lapidary::base::{BoxId, CellId, Csr, FaceId, NodeId, PlaneId, Run, VertexId}
 use lapidary::complex::{Complex, HalfFace, Origin, SupportId};
 use lapidary::cut::{CutOptions, cut};
 use lapidary::exact::{rational, round_rational};
-use lapidary::grid::{CUT, EMPTY, FULL, FULL_CELL, GridCells, Origins, Lattice};
+use lapidary::grid::{CUT, EMPTY, FULL, FULL_CELL, GridCells, Lattice, Origins};
 use lapidary::mesh::TriMesh;
 use rug::Rational;
 use std::sync::Arc;
