@@ -47,7 +47,7 @@ fn equal_to_a_fresh_mesh_in_every_array() {
                 let mut moved = soup.clone();
                 for x in &mut moved.vertices {
                     let small = || 0.01;
-                    *x = [x[0] + k * x[1], x[1] * -1.0, x[2] * -1.0 - k].map(|c| c + small() * random.unit());
+                    *x = [x[0] + k * x[1], -x[1], -x[2] - k].map(|c| c + small() * random.unit());
                     if round == 3 {
                         x[0] = if x[0] < 0.02 { -0.0 } else { x[0] };
                     }

@@ -1,4 +1,7 @@
 //! Grid: the boxes of a rectilinear grid against a surface: full, empty or cut into polyhedra.
+//!
+//! Stages in pipeline order: [`ground`] → [`pieces`] → [`points`] → [`touched`] → [`lines`] (with [`inside`]) → [`squares`] → [`cells`] (with
+//! [`voids`]) → [`assemble`]. On demand: [`moments`], [`regions`], [`aggregate`], [`full_faces`], [`keys`], [`to_complex`].
 
 pub mod aggregate;
 pub mod assemble;
