@@ -275,15 +275,27 @@ fn needed(lattice: &Lattice, touched: &Touched, inside: &Bits) -> Bits {
     out
 }
 
+fn disagreement(axis: usize) -> Error {
+    Error::inconsistent(format!(
+        "a node is in the fluid as seen along axis {axis} and outside as seen along x: the surface intersects itself"
+    ))
+}
+
 impl Lines {
-    /// The vertex of a needed node.
+    /// The vertex of a needed node; `NONE` if the node is not one.
     #[inline(always)]
-    pub fn node_vertex(&self, [i, j, k]: [usize; 3]) -> VertexId {
-        VertexId(self.first_node + self.ranks.of(&self.needed, i, j, k))
+    fn node_vertex(&self, [i, j, k]: [usize; 3]) -> VertexId {
+        if self.needed.get(i, j, k) {
+            VertexId(self.first_node + self.ranks.of(&self.needed, i, j, k))
+        } else {
+            VertexId::NONE
+        }
     }
 
     /// Calls `segment(from, to, layer)` for each elementary segment in the fluid on the line along `axis` through nodes `b`, `c` of the
     /// other axes, as far as touched boxes are around it. `boxes`: their rows around the line (`Bits::around`).
+    ///
+    /// Fails where this line has a node in the fluid that the line along x through it has outside: the surface intersects itself.
     #[inline]
     pub fn each_segment(
         &self,
@@ -292,7 +304,7 @@ impl Lines {
         [b, c]: [usize; 2],
         boxes: &[u64],
         mut segment: impl FnMut(VertexId, VertexId, u32),
-    ) {
+    ) -> Result<()> {
         let lattice = &slabs.ground.lattice;
         let nodes = lattice.nodes[axis].len() as u32;
         let node = |q: u32| {
@@ -303,6 +315,13 @@ impl Lines {
         };
         let row = b + lattice.nodes[others(axis)[0]].len() * c;
         let range = self.hits[axis].points.range(row);
+        let mut agreed = true;
+        let mut segment = |from: VertexId, to: VertexId, layer: u32| {
+            agreed &= from.is_some() && to.is_some();
+            if agreed {
+                segment(from, to, layer);
+            }
+        };
         let mut stretch = |from: Option<VertexId>, to: Option<VertexId>, first: u32, end: u32| {
             if first >= end {
                 if let (Some(from), Some(to)) = (from, to) {
@@ -336,7 +355,7 @@ impl Lines {
             if self.inside.get(node(0)[0], node(0)[1], node(0)[2]) {
                 stretch(None, None, 0, nodes);
             }
-            return;
+            return if agreed { Ok(()) } else { Err(disagreement(axis)) };
         }
         let hits = &self.hits[axis];
         let mut from: Option<VertexId> = None;
@@ -352,6 +371,7 @@ impl Lines {
         if hits.beside[range.end - 1][1] {
             stretch(from, None, first, nodes);
         }
+        if agreed { Ok(()) } else { Err(disagreement(axis)) }
     }
 
     pub fn check(&self) -> std::result::Result<(), String> {

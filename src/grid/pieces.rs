@@ -207,29 +207,54 @@ impl Triangle<'_> {
         out.in_box.push(self.ground.lattice.box_id(at));
     }
 
-    /// The sides of a piece that planes across the triangle have made. Each is a side of the piece below the plane and of the one above: the
-    /// lower emits it, unless it is outside the block.
+    /// The sides of a piece that one plane across the triangle has made. Each is a side of the piece below the plane and of the one above:
+    /// the lower emits it, unless it is outside the block. Sides on two planes are emitted where they arise (`on_two_planes`).
     fn chords(&mut self, part: &[Corner], place: &Slabs, out: &mut Pieces) {
         let mut u = part[part.len() - 1];
         for &v in part {
-            for a in 0..3 {
+            let crossed = |a: usize| {
                 let s = u.s[a];
-                if s != v.s[a] || !on_plane(s) || s <= self.low[a] || s >= self.high[a] {
-                    continue;
-                }
-                let below = place[a] < s;
-                // A side on a second plane, at the rim: the piece below is beyond the rim.
-                let rim = |g: usize| {
-                    g != a
-                        && u.s[g] == v.s[g]
-                        && !on_plane(place[g])
-                        && (u.s[g] == 1 || u.s[g] + 1 == self.ground.behind(g))
-                };
-                if below || s == 1 || rim(0) || rim(1) || rim(2) {
+                s == v.s[a] && on_plane(s) && s > self.low[a] && s < self.high[a]
+            };
+            let made_by = [crossed(0), crossed(1), crossed(2)];
+            if let [true, false, false] | [false, true, false] | [false, false, true] = made_by {
+                let a = if made_by[0] { 0 } else { 1 + made_by[2] as usize };
+                let below = place[a] < u.s[a];
+                if below || u.s[a] == 1 {
                     // Above the plane the piece is walked along n_P × n_T.
                     let ends = if below { [v.v, u.v] } else { [u.v, v.v] };
-                    out.chords.push((self.ground.knife(a, s / 2), Chord { ends, triangle: self.t }));
+                    out.chords.push((self.ground.knife(a, u.s[a] / 2), Chord { ends, triangle: self.t }));
                 }
+            }
+            u = v;
+        }
+    }
+
+    /// A chord of a plane normal to `axis` that lies in a second plane as well, hence on a grid line: it bounds faces of both planes in all
+    /// four quadrants around the line, also where neither piece beside it is in the block. `chord`: its points from the rising chain to the
+    /// falling one; `before`: a corner of the part below the first plane.
+    fn on_two_planes(
+        &mut self,
+        axis: usize,
+        a: &Corner,
+        b: &Corner,
+        before: &Corner,
+        inner: &[Corner],
+        out: &mut Pieces,
+    ) {
+        let on = |g: usize| {
+            g != axis && on_plane(a.s[g]) && a.s[g] == b.s[g] && self.low[g] < a.s[g] && a.s[g] < self.high[g]
+        };
+        let Some(other) = (0..3).find(|&g| on(g)) else { return };
+        let mut u = *a;
+        for &v in inner.iter().chain(std::iter::once(b)) {
+            if self.ground.in_block(&u.s) && self.ground.in_block(&v.s) {
+                // The part below the first plane is walked against n_P × n_T; it is below or above the second.
+                let against = [v.v, u.v];
+                let below = before.s[other] < a.s[other];
+                let second = if below { against } else { [u.v, v.v] };
+                out.chords.push((self.ground.knife(axis, a.s[axis] / 2), Chord { ends: against, triangle: self.t }));
+                out.chords.push((self.ground.knife(other, a.s[other] / 2), Chord { ends: second, triangle: self.t }));
             }
             u = v;
         }
@@ -300,9 +325,10 @@ impl Scratch {
             2,
             ground.behind(2),
             z_level,
-            &mut |a, b, chord| {
+            &mut |a, b, before, chord| {
                 let (triangle, out) = &mut *context.borrow_mut();
                 triangle.along_z_chord(a, b, out, chord);
+                triangle.on_two_planes(2, a, b, before, chord, out);
             },
             &mut |strip, z| {
                 split(
@@ -310,12 +336,13 @@ impl Scratch {
                     1,
                     ground.behind(1),
                     y_level,
-                    &mut |a, b, chord| {
+                    &mut |a, b, before, chord| {
                         let (triangle, out) = &mut *context.borrow_mut();
                         triangle.along_y_chord(a, b, z, out, chord);
+                        triangle.on_two_planes(1, a, b, before, chord, out);
                     },
                     &mut |cell, y| {
-                        split(cell, 0, ground.behind(0), x_level, &mut |_, _, _| {}, &mut |part, x| {
+                        split(cell, 0, ground.behind(0), x_level, &mut |_, _, _, _| {}, &mut |part, x| {
                             let (triangle, out) = &mut *context.borrow_mut();
                             triangle.finish(part, [x, y, z], out);
                         });
@@ -327,14 +354,14 @@ impl Scratch {
 }
 
 /// Splits a convex cycle along the planes of one axis and emits the parts inside the block, from low to high, each with its place.
-/// `inner` appends the new points on a chord between two corners.
+/// `inner` appends the new points on a chord between two corners, the third one being a corner below the chord.
 #[inline]
 fn split(
     cycle: &[Corner],
     axis: usize,
     behind: u32,
     level: &mut Level,
-    inner: &mut impl FnMut(&Corner, &Corner, &mut Vec<Corner>),
+    inner: &mut impl FnMut(&Corner, &Corner, &Corner, &mut Vec<Corner>),
     emit: &mut impl FnMut(&[Corner], u32),
 ) {
     let n = cycle.len();
@@ -371,7 +398,7 @@ fn split(
             down = previous(down);
         }
         chord.clear();
-        inner(&cycle[up], &cycle[down], chord);
+        inner(&cycle[up], &cycle[down], &cycle[previous(up)], chord);
         if plane != 1 {
             part.clear();
             match last_up {

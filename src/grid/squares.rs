@@ -154,8 +154,8 @@ impl Scene<'_> {
         }
         section.pieces.truncate(kept);
         section.pieces.iter_mut().for_each(|piece| self.trim(p, piece));
-        self.grid_segments(p, true, &mut section.pieces, boxes);
-        self.grid_segments(p, false, &mut section.pieces, boxes);
+        self.grid_segments(p, true, &mut section.pieces, boxes)?;
+        self.grid_segments(p, false, &mut section.pieces, boxes)?;
         let mut out = Squares { face_loops: vec![0], ..Default::default() };
         if section.pieces.is_empty() {
             return Ok(out);
@@ -208,7 +208,7 @@ impl Scene<'_> {
     }
 
     /// The segments of the grid lines of a plane along one of its axes.
-    fn grid_segments(&self, p: &PlaneOf, along_u: bool, pieces: &mut Vec<Piece>, boxes: &mut Vec<u64>) {
+    fn grid_segments(&self, p: &PlaneOf, along_u: bool, pieces: &mut Vec<Piece>, boxes: &mut Vec<u64>) -> Result<()> {
         let lattice = &self.slabs.ground.lattice;
         let (axis, across) = if along_u { (p.u, p.w) } else { (p.w, p.u) };
         let [b, c] = others(axis);
@@ -229,8 +229,9 @@ impl Scene<'_> {
                     let carrier = Carrier::Line { other, against: false, ends: [from, to] };
                     pieces.push(Piece { ends: [from, to], edge: EdgeId::NONE, carrier, left, right });
                 }
-            });
+            })?;
         }
+        Ok(())
     }
 
     fn sort_stars(&self, p: &PlaneOf, section: &mut Section, order: &mut Vec<(u8, u32)>, row: &mut Vec<u32>) {
