@@ -56,8 +56,8 @@ fn exact(g: &GridCells, b: BoxId, c: CellId) -> [f64; 9] {
 
 /// A place over 2^exponent, less half the box.
 fn from_middle(p: Place, frame: &Interval) -> Pair {
-    let (top, rest) = ((p.h >> 32 << 32) as f64, (p.h as u32) as f64 + p.l);
-    let x = Pair::joined(top, rest).scaled(1.0 / UNITS);
+    let whole = Pair::joined((p.h >> 32 << 32) as f64, (p.h as u32) as f64);
+    let x = whole.plus(Pair::of(p.l)).scaled(1.0 / UNITS);
     let half = frame.size.scaled(0.5);
     x.plus(Pair { hi: -half.hi, lo: -half.lo })
 }
@@ -92,7 +92,7 @@ fn fast(g: &GridCells, frames: &Frames, b: BoxId, c: CellId) -> Option<[f64; 9]>
     // Coordinates are off by η, below 1/2 otherwise: a determinant (below 1) by 10 η, the sum of products (at most 3) by 12 η;
     // and a dozen roundings of pairs, each below 2⁻⁹⁸ of terms below 4.
     let slack = frame[0].slack.max(frame[1].slack).max(frame[2].slack);
-    let eta = (slack + 1.0 / 1024.0) / UNITS;
+    let eta = slack / UNITS + power(-97);
     let err = count * (50.0 * eta + power(-92)) + power(-100);
     let e = frame.map(|x| x.exponent);
     let whole = e[0] + e[1] + e[2];
