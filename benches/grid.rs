@@ -148,11 +148,12 @@ fn measure(level: usize, n: usize, outside: bool, repeats: usize) {
         let start = Instant::now();
         let m = moments(&g);
         time(&mut times, "MOMENTS", start);
+        let after = peak();
         let (start, busy) = (Instant::now(), processor_time());
         assert!(moments(&g) == m);
         time(&mut times, "MOMENTS again", start);
         times.push(("processor time of that", processor_time() - busy));
-        let (start, after) = (Instant::now(), peak());
+        let start = Instant::now();
         let r = regions(&g);
         time(&mut times, "regions", start);
         let start = Instant::now();
@@ -165,7 +166,7 @@ fn measure(level: usize, n: usize, outside: bool, repeats: usize) {
         let plane = full_faces(&g, 0, n / 2);
         time(&mut times, "one plane's full faces", start);
         println!(
-            "  {} regions, {} lone aggregates, {} links, {} full faces in the middle plane; {after:.0} MB after moments",
+            "  {} regions, {} lone aggregates, {} links, {} full faces in the middle plane; peak {after:.0} MB with moments",
             r.count,
             a.too_small.len(),
             links.cell.len(),
@@ -199,7 +200,7 @@ fn measure(level: usize, n: usize, outside: bool, repeats: usize) {
         let size = Rational::from_f64(nodes[n]).unwrap() - Rational::from_f64(nodes[0]).unwrap();
         exact = Rational::from(&size * &size) * &size - exact;
     }
-    println!("  relative error of the volume {:.2e}; peak {:.0} MB", volume_error(&g, &m, &exact), peak());
+    println!("  relative error of the volume {:.2e}", volume_error(&g, &m, &exact));
 }
 
 fn main() {

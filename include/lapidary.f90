@@ -255,8 +255,9 @@ module lapidary
     integer(c_int32_t) :: struct_size
     ! 1 if nothing remains, else 0: then lap_certified_open says where.
     integer(c_int32_t) :: certified
-    ! With correctly rounded coordinates, before any repair: triangles without area; pairs of triangles that meet; outer
-    ! surfaces and voids of cells whose volume does not have its sign (asked only where the other two are 0).
+    ! With correctly rounded coordinates, before any repair: triangles without area; pairs of triangles that meet, of
+    ! those that bound one cell, or the outside (if any meet, some of these do); outer surfaces and voids of cells whose
+    ! volume does not have its sign (asked only where the other two are 0).
     integer(c_int64_t) :: flat_before
     integer(c_int64_t) :: contacts_before
     integer(c_int64_t) :: volumes_before

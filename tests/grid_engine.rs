@@ -62,8 +62,11 @@ fn cells(g: &GridCells, m: &GridMoments) -> Vec<(u32, Vec<CellShape>)> {
     out
 }
 
-/// Faces in grid planes as a set: shape, square, which sides have a cell or a full box, numbers.
-fn faces(g: &GridCells, m: &GridMoments) -> Vec<(u32, u8, Vec<Vec<Bits>>, [u8; 2], Vec<u64>)> {
+/// A face in a grid plane: its square, axis and loops, which sides have a cell or a full box, and its numbers.
+type PlaneFace = (u32, u8, Vec<Vec<Bits>>, [u8; 2], Vec<u64>);
+
+/// Faces in grid planes as a set.
+fn faces(g: &GridCells, m: &GridMoments) -> Vec<PlaneFace> {
     let mut out: Vec<_> = (0..g.square_node.len())
         .map(|k| {
             let (kind, loops) = shape(g, FaceId::of(g.plane_faces[0] as usize + k));

@@ -13,7 +13,8 @@ use grid_reference::{Reference, inside, outside};
 use lapidary::base::{CellId, FaceId};
 use lapidary::complex::exact_values::{cell_values, face_values};
 use lapidary::grid::exact_moments;
-use lapidary::grid::moments::{GridMoments, moments};
+use lapidary::grid::moments::{GridMoments, cell_boxes, moments};
+use lapidary::grid::second_moments::second_moments;
 use lapidary::grid::settle::settle_rational;
 use rug::Rational;
 use solids::Random;
@@ -220,4 +221,52 @@ fn small_cells() {
         assert!(m.cell_fraction.iter().any(|&f| f < size));
         assert!(m.exact_cells == 0 || size < 1e-4);
     }
+}
+
+/// Second moments: of boxes by their closed form; the first moments and the general formula elsewhere.
+#[test]
+fn second_order() {
+    // Between the grid's planes: every cell is a box.
+    let nodes = [uniform(-0.7, 1.3, 3), uniform(-0.31, 1.77, 4), uniform(-1.1, 1.3, 3)];
+    let (low, high) = ([-0.41, 0.1, -0.77], [1.03, 1.4, 0.9]);
+    let r = inside(&cuboid(low, high), [&nodes[0], &nodes[1], &nodes[2]]);
+    let g = &r.grid;
+    let m = second_moments(g);
+    for (k, b) in cell_boxes(g).into_iter().enumerate() {
+        let [from, to] = g.lattice.corners(b);
+        // Powers integrated over each side of the cell, about the middle of the box.
+        let sides: [[Rational; 3]; 3] = std::array::from_fn(|i| {
+            let c = (of(from[i]) + of(to[i])) / 2;
+            let (p, q) = (of(from[i].max(low[i])) - &c, of(to[i].min(high[i])) - c);
+            let power = |x: &Rational, n: usize| (0..n).fold(Rational::from(1), |y, _| y * x);
+            [1, 2, 3].map(|n| (power(&q, n) - power(&p, n)) / n as u32)
+        });
+        let integral = |n: [usize; 3]| (0..3).fold(Rational::from(1), |y, i| y * &sides[i][n[i]]);
+        for i in 0..3 {
+            same("first", m.first[k][i], &integral(std::array::from_fn(|a| (a == i) as usize)));
+        }
+        for (x, [i, j]) in m.second[k].iter().zip(exact_moments::PAIRS) {
+            same("second", *x, &integral(std::array::from_fn(|a| (a == i) as usize + (a == j) as usize)));
+        }
+    }
+    let mut random = Random(3);
+    let soup = solids::star(2, || 0.5 + 0.4 * random.unit());
+    let soup = solids::mapped(soup, [[0.62, 0.04, 0.0], [0.02, 0.58, 0.1], [0.0, 0.06, 0.66]]);
+    let nodes = [uniform(-1.3, 1.2, 6), uniform(-1.2, 1.3, 5), uniform(-1.25, 1.25, 4)];
+    let r = inside(&soup, [&nodes[0], &nodes[1], &nodes[2]]);
+    let g = &r.grid;
+    let m = second_moments(g);
+    for (k, b) in cell_boxes(g).into_iter().enumerate() {
+        let (_, middle, _) = exact_moments::box_values(g, b);
+        let (volume, centroid) = cell_values(&r.complex, r.cells[k]);
+        let exact = exact_moments::cell(g, CellId::of(k), &middle, true);
+        for i in 0..3 {
+            same("first", m.first[k][i], &((centroid[i].clone() - &middle[i]) * &volume));
+        }
+        for (x, exact) in m.second[k].iter().zip(&exact.second) {
+            same("second", *x, exact);
+        }
+    }
+    println!("{} cells, {} by rationals", g.cell_count(), m.exact_cells);
+    assert!(m.exact_cells * 10 < g.cell_count());
 }

@@ -45,8 +45,9 @@ pub struct lap_certify_report {
     pub struct_size: i32,
     /// 1 if nothing remains, else 0: then lap_certified_open says where.
     pub certified: i32,
-    /// With correctly rounded coordinates, before any repair: triangles without area; pairs of triangles that meet; outer surfaces and voids of cells
-    /// whose volume does not have its sign (asked only where the other two are 0).
+    /// With correctly rounded coordinates, before any repair: triangles without area; pairs of triangles that meet, of those
+    /// that bound one cell, or the outside (if any meet, some of these do); outer surfaces and voids of cells whose volume
+    /// does not have its sign (asked only where the other two are 0).
     pub flat_before: i64,
     pub contacts_before: i64,
     pub volumes_before: i64,

@@ -37,7 +37,8 @@ pub struct CertifyOptions {
 pub struct CertifyReport {
     /// Nothing remains.
     pub certified: bool,
-    /// Before any repair: triangles without area, pairs of triangles in contact, shells with the wrong sign of volume.
+    /// Before any repair: triangles without area, pairs of triangles in contact that bound one cell or the outside, shells with
+    /// the wrong sign of volume.
     pub flat_before: usize,
     pub contacts_before: usize,
     pub shells_before: usize,

@@ -96,6 +96,17 @@ impl Normal {
     }
 }
 
+/// Coordinates and residual of a vertex. Without a branch on its kind: that would be mispredicted half the time, and then the
+/// look-ups that follow wait.
+#[inline(always)]
+pub fn position(g: &GridCells, v: VertexId) -> ([f64; 3], [f64; 3]) {
+    let i = v.0.wrapping_sub(g.constructed.start) as usize;
+    let there = i < g.residuals.len();
+    let r = g.residuals.get(if there { i } else { 0 }).copied().unwrap_or_default();
+    let weight = f64::from(there as u8);
+    (g.coords[v.at()], r.map(|r| r * weight))
+}
+
 /// The walls of some boxes with their corners' places, gathered before anything is computed: the arrays they come from are in
 /// another order, so that each look-up is likely to miss the cache; in loops of nothing else, the misses overlap.
 #[derive(Default)]
@@ -144,7 +155,7 @@ impl Gathered {
     pub fn place(&mut self, g: &GridCells, frame: &[&Interval; 3], end: usize) {
         let vertices = &self.vertices[self.places.len()..self.offsets[end] as usize];
         self.places.extend(vertices.iter().map(|&v| {
-            let (x, r) = (&g.coords[v.at()], g.residual(v));
+            let (x, r) = position(g, v);
             std::array::from_fn(|i| frame[i].place(x[i], r[i]))
         }));
     }
@@ -176,10 +187,22 @@ impl Sum {
 /// The area of a face in a grid plane, doubled, in units of its square, and its bound.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct PlaneArea {
-    pub doubled: i128,
-    pub err: f64,
+    /// The low and high half of a 128-bit number: one of those would cost another eight bytes per face.
+    doubled: [u64; 2],
+    err: f32,
     /// The whole square.
-    pub whole: bool,
+    whole: bool,
+}
+
+impl PlaneArea {
+    pub fn new(doubled: i128, err: f64, whole: bool) -> Self {
+        // Rounded up.
+        Self { doubled: [doubled as u64, (doubled >> 64) as u64], err: (err * 1.0001) as f32, whole }
+    }
+    #[inline(always)]
+    fn doubled(&self) -> i128 {
+        (self.doubled[1] as i64 as i128) << 64 | self.doubled[0] as i128
+    }
 }
 
 /// Integrals over a cell's walls and faces relative to `origin`.
@@ -312,7 +335,7 @@ impl<'a> CellSums<'a> {
     /// A face in a grid plane, on the cell's high or low side along an axis.
     #[inline(always)]
     pub fn plane(&mut self, area: &PlaneArea, axis: usize, high_side: bool) {
-        let d = area.doubled;
+        let (d, err) = (area.doubled(), area.err as f64);
         self.squares[axis] += area.whole as i32 * if high_side { 1 } else { -1 };
         self.others[axis] |= !area.whole;
         // Distance of the plane from the origin, along its normal out of the cell.
@@ -325,13 +348,12 @@ impl<'a> CellSums<'a> {
         let xf = x as f64;
         if axis == 0 {
             self.volume.add(high(d, 3 * x), size * 3.0 * xl * TO_64);
-            self.plane_volume_err += (area.err * 3.0 * xf.abs() + size * power(-40)) * TO_64 + 4.0;
+            self.plane_volume_err += (err * 3.0 * xf.abs() + size * power(-40)) * TO_64 + 4.0;
         }
         let sign = if high_side { 12 } else { -12 };
         let l = sign as f64 * 2.0 * xf * xl * size * TO_128;
         self.first[axis].add(high_of_wide(d, product(x, x) * sign), l);
-        self.plane_first_err[axis] +=
-            (area.err * 12.0 * xf * xf + size * (xf.abs() * power(-37) + 12.0)) * TO_128 + 14.0;
+        self.plane_first_err[axis] += (err * 12.0 * xf * xf + size * (xf.abs() * power(-37) + 12.0)) * TO_128 + 14.0;
     }
 
     /// δ, P, n, k of the bounds; P is rounded up to a power of two less one.
@@ -498,7 +520,7 @@ pub fn plane_face(places: &[[Place; 2]], loops: &[u32], frames: [&Interval; 2]) 
     let k = 8.0 * slack + (count + 16.0) * power(-50);
     let err = count * (t * k + 4.0);
     let rounded = sum.l.round_ties_even();
-    let area = PlaneArea { doubled: sum.h.wrapping_add(rounded as i128), err: err + 1.0, whole: false };
+    let area = PlaneArea::new(sum.h.wrapping_add(rounded as i128), err + 1.0, false);
     let values = || {
         let d = sum.pair();
         let d_err = err + d.hi.abs() * LOSS;

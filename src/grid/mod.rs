@@ -22,6 +22,7 @@ pub mod oriented;
 pub mod pieces;
 pub mod points;
 pub mod regions;
+pub mod second_moments;
 pub mod settle;
 pub mod squares;
 pub mod to_complex;

@@ -7,9 +7,11 @@
 //! range (beyond 2^±240), cells far smaller than their box.
 //!
 //! Closure: a cell's wall area vector and the areas of its faces in grid planes sum to zero within half an ulp per term.
-//! Cost: about 1 µs per cut cell with its faces, on one thread; memory: the outputs, and 32 bytes per face, 16 per triangle.
+//! Cost: about 1 µs per cut cell with its faces, on one thread; memory: the outputs, and 24 bytes per face, 16 per triangle.
 
-use super::cell_sums::{BodyValues, CellSums, Gathered, Normal, PlaneArea, WallValues, on_high_side, plane_face};
+use super::cell_sums::{
+    BodyValues, CellSums, Gathered, Normal, PlaneArea, WallValues, on_high_side, plane_face, position,
+};
 use super::data::GridCells;
 use super::exact_moments;
 use super::fixed_point::{Frames, Interval, Place, power};
@@ -152,16 +154,19 @@ fn face_run(g: &GridCells, frames: &Frames, first: usize, mut out: FaceOut) -> u
         places.clear();
         for k in run.clone() {
             let f = FaceId(g.plane_faces[0] + (first + k) as u32);
+            if is_square(g, f) {
+                continue;
+            }
             let ([fb, fc], [b, c]) = square_frames(g, frames, first + k, g.face_axis(f));
             places.extend(g.face_corners(f).iter().map(|&v| {
-                let (x, r) = (&g.coords[v.at()], g.residual(v));
+                let (x, r) = position(g, v);
                 [fb.place(x[b], r[b]), fc.place(x[c], r[c])]
             }));
         }
         let mut rest = &places[..];
         for k in run {
             let f = FaceId(g.plane_faces[0] + (first + k) as u32);
-            let (mine, others) = rest.split_at(g.face_corners(f).len());
+            let (mine, others) = rest.split_at(if is_square(g, f) { 0 } else { g.face_corners(f).len() });
             rest = others;
             exact += one_face(g, frames, first, k, mine, &mut out) as usize;
         }
@@ -202,19 +207,19 @@ fn one_face(g: &GridCells, frames: &Frames, first: usize, k: usize, places: &[[P
     !decided
 }
 
-/// Four corners, all of them nodes: the whole square.
+/// Four corners, all of them nodes off the surface: the whole square. Nodes come last among the vertices.
 #[inline(always)]
 fn is_square(g: &GridCells, f: FaceId) -> bool {
     let corners = g.face_corners(f);
     corners.len() == 4
         && g.face_loops[f.at() + 1] - g.face_loops[f.at()] == 1
-        && corners.iter().all(|v| g.on_planes[v.at()] == 7)
+        && corners.iter().all(|v| v.0 >= g.constructed.end)
 }
 
 fn whole_square(b: &Interval, c: &Interval) -> PlaneArea {
     let (x, y) = (b.length, c.length);
     let rest = x.h as f64 * y.l + x.l * y.h as f64;
-    PlaneArea { doubled: 2 * (x.h as i128 * y.h as i128 + rest.round_ties_even() as i128), err: 4096.0, whole: true }
+    PlaneArea::new(2 * (x.h as i128 * y.h as i128 + rest.round_ties_even() as i128), 4096.0, true)
 }
 
 /// Area, fraction, and the centroid's two coordinates.
