@@ -4,7 +4,9 @@
 #[path = "common/random.rs"]
 mod random;
 
-use lapidary::capi::{context::*, cut::*, derived::*, keys::*, mesh::*, status::*};
+use lapidary::capi::{
+    context::*, cut::*, derived::*, grid::*, grid_boxes::*, grid_moments::*, keys::*, mesh::*, status::*,
+};
 use random::Random;
 use std::ptr::{null, null_mut};
 
@@ -62,7 +64,7 @@ fn soup(r: &mut Random) -> (Vec<f64>, Vec<i32>) {
 #[test]
 fn any_input_ends_with_a_status() {
     let mut r = Random(0x6c61_7069_6461_7279);
-    let (mut meshes, mut cuts, mut bad, mut inconsistent) = (0, 0, 0, 0);
+    let (mut meshes, mut cuts, mut bad, mut inconsistent, mut grids) = (0, 0, 0, 0, 0);
     unsafe {
         let mut context = null_mut();
         assert_eq!(lap_context_new(&mut context), LAP_OK);
@@ -88,6 +90,7 @@ fn any_input_ends_with_a_status() {
                 continue;
             }
             meshes += 1;
+            grids += boxes(context, mesh, &mut r, checked, round);
             let wild = [0, 0, 1, 3][r.below(4) as usize];
             let planes: Vec<f64> = (0..4 * r.below(7)).map(|_| number(&mut r, wild)).collect();
             let mut cut = null_mut();
@@ -106,6 +109,8 @@ fn any_input_ends_with_a_status() {
         }
         assert_eq!(lap_context_free(context), LAP_OK);
     }
+    println!("{grids} grids");
+    assert!(grids > 300);
     println!("{meshes} meshes, {bad} refused; {cuts} cuts, {inconsistent} of self-intersecting input refused");
     // The generator is worth something only if it gets everywhere.
     assert!(meshes > 500 && bad > 500 && cuts > 300);
@@ -165,5 +170,86 @@ unsafe fn consistent(
             let sum = volumes.iter().sum::<f64>();
             assert!((sum - whole).abs() <= bound, "round {round}: {sum:e}, not {whole:e}: {volumes:?}");
         }
+    }
+}
+
+/// Nodes that rise, nearly always; now and then they are anything.
+fn nodes(r: &mut Random) -> Vec<f64> {
+    let wild = [0, 0, 0, 0, 2][r.below(5) as usize];
+    let mut all: Vec<f64> = (0..1 + r.below(6)).map(|_| number(r, wild) + 0.5 * r.below(2) as f64).collect();
+    if r.below(20) > 0 {
+        all.sort_unstable_by(f64::total_cmp);
+        all.dedup();
+    }
+    all
+}
+
+/// Cuts a grid along the mesh, inside and outside; how many grids were made. Both together fill the grid, if the mesh is checked.
+unsafe fn boxes(
+    context: *mut lap_context,
+    mesh: *const lap_mesh,
+    r: &mut Random,
+    checked: bool,
+    round: usize,
+) -> usize {
+    unsafe {
+        let [x, y, z] = [(); 3].map(|()| nodes(r));
+        let rises = |n: &Vec<f64>| n.len() > 1 && n.iter().all(|x| x.is_finite()) && n.windows(2).all(|w| w[0] < w[1]);
+        let valid = [&x, &y, &z].into_iter().all(rises);
+        let (mut made, mut fluid, mut ordinary) = (0, 0.0, true);
+        for outside in 0..2 {
+            let mut options = std::mem::zeroed();
+            assert_eq!(lap_grid_options_init(&mut options, size_of::<lap_grid_options>() as i32), LAP_OK);
+            options.outside = outside;
+            let mut grid = null_mut();
+            let count = |n: &Vec<f64>| n.len() as i64;
+            let status = lap_grid_new(
+                context,
+                mesh,
+                count(&x),
+                x.as_ptr(),
+                count(&y),
+                y.as_ptr(),
+                count(&z),
+                z.as_ptr(),
+                &options,
+                &mut grid,
+            );
+            assert_eq!(status == LAP_OK, !grid.is_null(), "round {round}");
+            if status != LAP_OK {
+                let expected = if valid { LAP_ERR_INCONSISTENT } else { LAP_ERR_BAD_ARGUMENT };
+                let mut message = null();
+                lap_context_last_error(context, null_mut(), &mut message);
+                let message = std::ffi::CStr::from_ptr(message);
+                assert_eq!(status, expected, "round {round}, checked: {checked}: {message:?}: {x:?} {y:?} {z:?}");
+                assert!(!(checked && valid), "round {round}: checked, and yet inconsistent: {x:?} {y:?} {z:?}");
+                return made;
+            }
+            assert!(valid, "round {round}: {x:?} {y:?} {z:?}");
+            made += 1;
+            let status = lap_grid_check(context, grid);
+            assert!(status == LAP_OK || !checked, "round {round}: the check says {status}");
+            let (mut n, mut volumes, mut flags, mut n_boxes, mut kinds) = (0, null(), null(), 0, null());
+            let status = lap_grid_cell_moments(grid, &mut n, &mut volumes, null_mut(), null_mut(), &mut flags);
+            assert_eq!(status, LAP_OK, "round {round}");
+            assert_eq!(lap_grid_flags(grid, &mut n_boxes, &mut kinds), LAP_OK);
+            for i in 0..n as usize {
+                fluid += *volumes.add(i);
+                ordinary &= *flags.add(i) == 0;
+                assert!(*volumes.add(i) > 0.0 || *flags.add(i) != 0 || !checked, "round {round}: volume of cell {i}");
+            }
+            let width = |n: &[f64], i: usize| n[i + 1] - n[i];
+            for b in (0..n_boxes as usize).filter(|&b| i32::from(*kinds.add(b)) == LAP_BOX_FULL) {
+                let (nx, ny) = (x.len() - 1, y.len() - 1);
+                fluid += width(&x, b % nx) * width(&y, b / nx % ny) * width(&z, b / (nx * ny));
+            }
+            assert_eq!(lap_grid_free(grid), LAP_OK);
+        }
+        let size = |n: &Vec<f64>| n[n.len() - 1] - n[0];
+        let whole = size(&x) * size(&y) * size(&z);
+        if checked && ordinary && whole > 1e-100 && whole < 1e100 {
+            assert!((fluid - whole).abs() <= 1e-12 * whole, "round {round}: {fluid:e} of {whole:e}: {x:?} {y:?} {z:?}");
+        }
+        made
     }
 }

@@ -82,9 +82,9 @@ fn cells6(c: &Complex) -> Residue {
             for k in r.clone() {
                 let next = if k + 1 == r.end { r.start } else { k + 1 };
                 let (a, b) = (points[c.corner_vertices[k].at()], points[c.corner_vertices[next].at()]);
-                for i in 0..3 {
+                for (i, sum) in area.iter_mut().enumerate() {
                     let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-                    area[i] += a[j] * b[k] - a[k] * b[j];
+                    *sum += a[j] * b[k] - a[k] * b[j];
                 }
                 cone += det(&first, &a, &b);
             }
