@@ -7,7 +7,7 @@
  *    CGAL's exact triangle test (and exact intersection, for those that share some).
  * 3. Every cell has a positive volume, exactly.
  *
- * Over models of CGAL's data set (few and small ones; all, and more plane sets, with LAPIDARY_ALL), and made-up solids.
+ * Over models of CGAL's data set (few and small ones; all, and more plane sets, with LAPIDARY_LONG), and made-up solids.
  */
 #include "check.h"
 #include "fixture.hpp"
@@ -297,7 +297,7 @@ void finds_defects()
 
 int main()
 {
-    const bool everything = std::getenv("LAPIDARY_ALL") != nullptr;
+    const bool everything = std::getenv("LAPIDARY_LONG") != nullptr;
     finds_defects();
     const fixture::all data = fixture::read(LAPIDARY_TEST_DATA "/cut_small.txt");
     for (const auto &[name, s] : data.meshes) all_sets(name, s.xyz, s.indices, everything);
@@ -310,7 +310,7 @@ int main()
         std::cout << "CGAL's meshes: skipped, they were not given (LAPIDARY_CGAL_MESHES)" << std::endl;
         return check_result();
     }
-    /* Models that need repair; with LAPIDARY_ALL every closed mesh that does not intersect itself. */
+    /* Models that need repair; with LAPIDARY_LONG every closed mesh that does not intersect itself. */
     const std::vector<std::string> few{"tetrahedron.off", "beam.off",   "cross.off",     "anchor.off",
                                        "pinion.off",      "fandisk.off", "triceratops.off", "larger_sphere.off"};
     std::vector<std::string> files;

@@ -2,13 +2,13 @@
 //! move, and every closed valid mesh of the optional CGAL data set under six kinds of plane sets, in the form of the
 //! TopoCut paper's Table 2.
 //!
-//! A quick subset by default; all with `LAPIDARY_ALL=1 cargo test --release --test complex_certify -- --nocapture`.
+//! A quick subset by default; all with `LAPIDARY_LONG=1 cargo test --release --test complex_certify -- --nocapture`.
 
 mod common;
 #[path = "common/complexes.rs"]
 mod complexes;
 
-use common::models::{arbitrary, axis_plane, each_model, grid};
+use common::models::{arbitrary, axis_plane, each_model_or_all, grid};
 use common::random::Random;
 use common::{build_soup, tetrahedron};
 use complexes::{P, cross, cube, cut_cube, dot, minus, plane, point};
@@ -436,7 +436,7 @@ fn real_models_are_certified() {
     let mut table: BTreeMap<usize, Row> = BTreeMap::new();
     let names = ["A5", "A10", "A20", "R10", "R30", "R100"];
     let mut failed = Vec::new();
-    let there = each_model(3000, |name, soup, mesh| {
+    let there = each_model_or_all("LAPIDARY_LONG", 1500, |name, soup, mesh| {
         let mut random = Random(soup.triangles.len() as u64);
         let sets = [
             grid(&mesh, 5),

@@ -1,10 +1,10 @@
 //! Real models on grids whose planes pass exactly through their vertices: invariants, exact volumes, and four blocks against one.
 //!
-//! The models are CGAL's (`LAPIDARY_CGAL_MESHES`); a few by default, all with `LAPIDARY_ALL=1`.
+//! The models are CGAL's (`LAPIDARY_CGAL_MESHES`); a few by default, all with `LAPIDARY_LONG=1`.
 
 mod common;
 
-use common::models::each_model;
+use common::models::each_model_or_all;
 use common::random::Random;
 use common::{Soup, cuboid, together};
 use lapidary::base::{CellId, FaceId, Run, VertexId};
@@ -290,9 +290,9 @@ fn model(name: &str, soup: &Soup, mesh: &Arc<TriMesh>, count: usize, seed: u64) 
 
 #[test]
 fn models_on_grids_through_their_vertices() {
-    let everything = std::env::var_os("LAPIDARY_ALL").is_some();
+    let everything = std::env::var_os("LAPIDARY_LONG").is_some();
     let mut done = 0;
-    each_model(3000, |name, soup, mesh| {
+    each_model_or_all("LAPIDARY_LONG", 1500, |name, soup, mesh| {
         for count in [16, 64] {
             if everything || count == 16 || soup.triangles.len() < 800 {
                 model(name, soup, &mesh, count, 7 * count as u64 + soup.triangles.len() as u64);

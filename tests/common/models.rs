@@ -11,11 +11,16 @@ use std::sync::Arc;
 
 /// Calls `f` with name, soup and mesh of every closed mesh of CGAL's data that is free of self-intersection, up to
 /// `limit` triangles (all with `LAPIDARY_ALL`). False, with the reason printed, if the data is not there.
-pub fn each_model(limit: u64, mut f: impl FnMut(&str, &Soup, Arc<TriMesh>)) -> bool {
+pub fn each_model(limit: u64, f: impl FnMut(&str, &Soup, Arc<TriMesh>)) -> bool {
+    each_model_or_all("LAPIDARY_ALL", limit, f)
+}
+
+/// The same; the variable that asks for all models.
+pub fn each_model_or_all(variable: &str, limit: u64, mut f: impl FnMut(&str, &Soup, Arc<TriMesh>)) -> bool {
     let (Some(file), Some(folder)) = (shared("oracles/closed-meshes.json"), cgal_meshes()) else {
         return false;
     };
-    let everything = std::env::var_os("LAPIDARY_ALL").is_some();
+    let everything = std::env::var_os(variable).is_some();
     let all: serde_json::Value = serde_json::from_str(&std::fs::read_to_string(file).unwrap()).unwrap();
     let meshes = all["meshes"].as_array().unwrap();
     let clean: Vec<_> = meshes.iter().filter(|m| m["self_intersecting_pairs"] == 0).collect();
