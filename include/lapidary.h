@@ -1592,6 +1592,21 @@ int32_t lap_grid_cell_moments(const struct lap_grid *grid,
                               const uint8_t **flags);
 
 /*
+ Moments of the cut cells to order 2 about the middle of each cell's box, for reconstructions of higher order.
+
+ Outputs (each may be NULL; borrowed until the grid is freed): count: the number of cut cells; first: 3 × count, the integrals
+ of (x - m)_i over the cell, m being the exact middle of its box; second: 6 × count, the integrals of (x - m)_i (x - m)_j
+ for ij = xx, yy, zz, xy, yz, zx. Of a full box with sides a, b, c and volume V they are 0 and V a²/12, V b²/12, V c²/12, 0, 0, 0.
+
+ Errors: LAP_ERR_NULL_POINTER if grid is NULL, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: about ten microseconds per cut cell
+ at the first call, more where a moment is exactly zero by symmetry; then none. Memory: 72 bytes per cell.
+ */
+int32_t lap_grid_cell_second_moments(const struct lap_grid *grid,
+                                     int64_t *count,
+                                     const double **first,
+                                     const double **second);
+
+/*
  The embedded boundary of each cut cell: all its walls together.
 
  Outputs (each may be NULL; borrowed until the grid is freed): count: the number of cut cells; area_vectors: 3 × count, the

@@ -763,6 +763,10 @@ public:
         groups<double, 3> centroids;
         view<std::uint8_t> flags;
     };
+    struct second_moments_t {
+        groups<double, 3> first;
+        groups<double, 6> second;
+    };
     struct walls_moments_t {
         groups<double, 3> area_vectors, centroids;
     };
@@ -946,6 +950,13 @@ public:
         check(lap_grid_cell_moments(get(), &m.volumes.count, &m.volumes.data, &m.fractions.data, &m.centroids.data,
                                     &m.flags.data));
         m.fractions.count = m.centroids.count = m.flags.count = m.volumes.count;
+        return m;
+    }
+    second_moments_t cell_second_moments() const
+    {
+        second_moments_t m;
+        check(lap_grid_cell_second_moments(get(), &m.first.count, &m.first.data, &m.second.data));
+        m.second.count = m.first.count;
         return m;
     }
     walls_moments_t cell_boundaries() const

@@ -236,6 +236,7 @@ static void structure(const lap_grid *grid, int64_t n_triangles, const int32_t *
 static void moments(const lap_grid *grid, double volume)
 {
     const double *nodes[3], *volumes = NULL, *fractions = NULL, *centroids = NULL, *walls = NULL, *wall_centroids = NULL;
+    const double *first = NULL, *second = NULL;
     const double *areas = NULL, *area_fractions = NULL, *area_centroids = NULL, *one_by_one = NULL, *middles = NULL;
     const double *by_tag = NULL, *tag_centroids = NULL;
     const int64_t *boxes = NULL;
@@ -252,6 +253,8 @@ static void moments(const lap_grid *grid, double volume)
     STATUS(LAP_OK, lap_grid_plane_faces(grid, NULL, NULL, &axes, &square, &sides));
     STATUS(LAP_OK, lap_grid_walls(grid, NULL, NULL, &wall_tags, &wall_cells));
     STATUS(LAP_OK, lap_grid_cell_moments(grid, &count, &volumes, &fractions, &centroids, &flags));
+    CHECK(count == n_cells);
+    STATUS(LAP_OK, lap_grid_cell_second_moments(grid, &count, &first, &second));
     CHECK(count == n_cells);
     STATUS(LAP_OK, lap_grid_cell_boundaries(grid, &count, &walls, &wall_centroids));
     CHECK(count == n_cells);
@@ -271,6 +274,15 @@ static void moments(const lap_grid *grid, double volume)
         for (axis = 0; axis < 3; ++axis) {
             box *= nodes[axis][at[axis] + 1] - nodes[axis][at[axis]];
             CHECK(nodes[axis][at[axis]] < centroids[3 * c + axis] && centroids[3 * c + axis] < nodes[axis][at[axis] + 1]);
+        }
+        for (axis = 0; axis < 3; ++axis) {
+            /* The library's own sums are tested exactly elsewhere; here: which numbers are where, in which units. */
+            const double low = nodes[axis][at[axis]], high = nodes[axis][at[axis] + 1], size = high - low;
+            const double arm = centroids[3 * c + axis] - (low + size / 2), scale = fabs(low) + fabs(high);
+            CHECK(fabs(first[3 * c + axis] - volumes[c] * arm) <= 1e-15 * volumes[c] * scale);
+            CHECK(second[6 * c + axis] > volumes[c] * arm * arm - 1e-15 * volumes[c] * scale * size);
+            CHECK(second[6 * c + axis] <= volumes[c] * size * size / 4);
+            CHECK(fabs(second[6 * c + 3 + axis]) <= volumes[c] * size * (nodes[(axis + 1) % 3][at[(axis + 1) % 3] + 1] - nodes[(axis + 1) % 3][at[(axis + 1) % 3]]) / 4);
         }
         CHECK(volumes[c] > 0 && fractions[c] > 0 && fractions[c] <= 1 && flags[c] == 0);
         CHECK(fabs(fractions[c] * box - volumes[c]) <= 4e-16 * box);
@@ -803,6 +815,8 @@ static void views(const lap_grid *grid)
 
     STATUS(LAP_OK, lap_grid_cell_moments(grid, NULL, NULL, NULL, NULL, NULL));
     STATUS(LAP_ERR_NULL_POINTER, lap_grid_cell_moments(NULL, &n, &xyz, NULL, NULL, NULL));
+    STATUS(LAP_OK, lap_grid_cell_second_moments(grid, NULL, NULL, NULL));
+    STATUS(LAP_ERR_NULL_POINTER, lap_grid_cell_second_moments(NULL, &n, &xyz, NULL));
     STATUS(LAP_OK, lap_grid_cell_boundaries(grid, NULL, NULL, NULL));
     STATUS(LAP_ERR_NULL_POINTER, lap_grid_cell_boundaries(NULL, &n, &xyz, NULL));
     STATUS(LAP_OK, lap_grid_plane_face_moments(grid, NULL, NULL, NULL, NULL, NULL));
