@@ -13,7 +13,7 @@ use super::Sign;
 use super::big::BigKernel;
 use super::bounded::{Bounded, BoundedKernel, U};
 use super::counters::{Predicate, Tier, count};
-use super::double_double::{DoubleDouble, DoubleDoubleKernel, fast_two_sum};
+use super::double_double::{DoubleDouble, DoubleDoubleKernel};
 use super::interpolate;
 use super::lift::Scan;
 use super::points::{denominator, homogeneous, numerator, plain, shape};
@@ -127,27 +127,9 @@ fn round_coordinate(x: &Point, axis: usize, n: &DoubleDouble, w: &DoubleDouble) 
 
 /// The doubles nearest to the ends of an interval that holds n / w.
 fn interval(n: &DoubleDouble, w: &DoubleDouble) -> Option<(f64, f64)> {
-    // Two quotient digits; the remainder's own bound then says how far off they are, whatever their accuracy.
-    let q1 = n.hi / w.hi;
-    let r = n.minus(&DoubleDouble::exactly(q1).times(w));
-    let q2 = r.hi / w.hi;
-    let r = r.minus(&DoubleDouble::exactly(q2).times(w));
-    // |n - (q1 + q2) w| <= |r| + err, over the least |w|. Rounded up by a wide margin.
-    let least = (w.hi.abs() - w.err) * (1.0 - 8.0 * U);
-    let off = (r.hi.abs() * (1.0 + 4.0 * U) + r.err) * (1.0 + 8.0 * U) / least * (1.0 + 4.0 * U);
-    // Also false for NaN.
-    if !(least > f64::MIN_POSITIVE && off < f64::MAX) {
-        return None;
-    }
-    let off = off + f64::from_bits(1);
-    let (h, l) = fast_two_sum(q1, q2);
-    // |q2| <= |q1| can fail only where the quotient is lost in its error; the sum is then not exact.
-    let sum_is_exact = q2.abs() <= q1.abs() && h.is_finite();
-    if !sum_is_exact {
-        return None;
-    }
-    // h + (l ± off), the inner sums rounded outwards, the outer ones to nearest: rounding is monotonous.
-    Some((h + (l - off).next_down(), h + (l + off).next_up()))
+    let q = n.over(w)?;
+    // The inner sums are rounded outwards, the outer ones to nearest: rounding is monotonous.
+    Some((q.hi + (q.lo - q.err).next_down(), q.hi + (q.lo + q.err).next_up()))
 }
 
 /// 2X - (low + high) W, and W.
