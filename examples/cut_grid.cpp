@@ -45,51 +45,34 @@ options
 exit status: 0 done, 1 the library refused the input, 2 wrong usage, 3 a file cannot be read or written
 )";
 
-struct Options {
-    std::string mesh, nodes, vtu, json;
+struct Options : OneMesh {
+    std::string nodes;
     std::array<long, 3> count{0, 0, 0};
     std::array<long, 6> block{0, -1, 0, -1, 0, -1};
-    long threads = 1, repeat = 1;
-    bool outside = false, full = false, check = false, flip = false, help = false;
+    bool outside = false, full = false;
 };
 
-Options parse(const std::vector<std::string> &arguments)
+Options parse(const std::vector<std::string> &given)
 {
     Options options;
-    std::size_t at = 0;
-    auto next = [&](const std::string &option) -> const std::string & {
-        if (at == arguments.size()) throw UsageError(option + " needs another argument");
-        return arguments[at++];
-    };
-    constexpr long many = 1000000000;
-    while (at < arguments.size()) {
-        const std::string &a = arguments[at++];
-        if (a == "--help" || a == "-h") options.help = true;
-        else if (a == "--grid-nodes") {
-            const std::string &first = next(a);
-            // A file whose name is a number can be given as ./NUMBER.
-            if (first.find_first_not_of("0123456789") != std::string::npos) {
-                options.nodes = first;
-                continue;
-            }
-            options.count[0] = to_count(a, first, 2, many);
-            for (int k = 1; k < 3; ++k) options.count[k] = to_count(a, next(a), 2, many);
-        } else if (a == "--block")
-            for (long &n : options.block) n = to_count(a, next(a), 0, many);
-        else if (a == "--outside") options.outside = true;
-        else if (a == "--flip") options.flip = true;
-        else if (a == "--threads") options.threads = to_count(a, next(a), 1, LAP_MAX_THREADS);
-        else if (a == "--repeat") options.repeat = to_count(a, next(a), 1, many);
-        else if (a == "--check") options.check = true;
-        else if (a == "--vtu" || a == "--vtk") options.vtu = next(a);
-        else if (a == "--full") options.full = true;
-        else if (a == "--json") options.json = next(a);
-        else if (!a.empty() && a[0] == '-') throw UsageError("unknown option " + a);
-        else if (options.mesh.empty()) options.mesh = a;
-        else throw UsageError("more than one mesh: " + options.mesh + " and " + a);
-    }
+    Arguments arguments;
+    options.declare(arguments);
+    arguments.on("--grid-nodes", [&] {
+        const std::string &first = arguments.next();
+        // A file whose name is a number can be given as ./NUMBER.
+        if (first.find_first_not_of("0123456789") != std::string::npos) {
+            options.nodes = first;
+            return;
+        }
+        options.count[0] = to_count("--grid-nodes", first, 2, many_counts);
+        for (int k = 1; k < 3; ++k) options.count[k] = to_count("--grid-nodes", arguments.next(), 2, many_counts);
+    });
+    arguments.counts("--block", options.block, 0);
+    arguments.flag("--outside", options.outside);
+    arguments.flag("--full", options.full);
+    arguments.text("--vtk", options.vtu);
+    options.read(arguments, given);
     if (options.help) return options;
-    if (options.mesh.empty()) throw UsageError("no mesh given");
     if (options.nodes.empty() == (options.count[0] == 0)) throw UsageError("--grid-nodes is needed, once");
     if (options.full && options.vtu.empty()) throw UsageError("--full is of no use without --vtu");
     return options;

@@ -47,53 +47,33 @@ options
 exit status: 0 done, 1 the library refused the input, 2 wrong usage, 3 a file cannot be read or written
 )";
 
-struct Options {
-    std::string mesh, planes, vtu, exploded, json;
+struct Options : OneMesh {
+    std::string planes, exploded;
     std::array<long, 3> grid{0, 0, 0};
-    long random = 0, threads = 1, repeat = 1;
-    std::uint64_t seed = 1;
+    long random = 0, seed = 1;
     std::int32_t style = LAP_FACES_BRIDGED;
     double explode = 0.25;
-    bool check = false, flip = false, help = false;
 };
 
-Options parse(const std::vector<std::string> &arguments)
+Options parse(const std::vector<std::string> &given)
 {
     Options options;
-    std::size_t at = 0;
-    auto next = [&](const std::string &option) -> const std::string & {
-        if (at == arguments.size()) throw UsageError(option + " needs another argument");
-        return arguments[at++];
-    };
-    constexpr long many = 1000000000;
-    while (at < arguments.size()) {
-        const std::string &a = arguments[at++];
-        if (a == "--help" || a == "-h") options.help = true;
-        else if (a == "--grid")
-            for (long &n : options.grid) n = to_count(a, next(a), 0, many);
-        else if (a == "--planes") options.planes = next(a);
-        else if (a == "--random") options.random = to_count(a, next(a), 0, many);
-        else if (a == "--seed")
-            options.seed = static_cast<std::uint64_t>(to_count(a, next(a), 0, std::numeric_limits<long>::max()));
-        else if (a == "--threads") options.threads = to_count(a, next(a), 1, LAP_MAX_THREADS);
-        else if (a == "--repeat") options.repeat = to_count(a, next(a), 1, many);
-        else if (a == "--check") options.check = true;
-        else if (a == "--flip") options.flip = true;
-        else if (a == "--vtu") options.vtu = next(a);
-        else if (a == "--exploded") options.exploded = next(a);
-        else if (a == "--explode") options.explode = to_factor(a, next(a));
-        else if (a == "--json") options.json = next(a);
-        else if (a == "--faces") {
-            const std::string &style = next(a);
-            if (style == "holes") options.style = LAP_FACES_HOLES;
-            else if (style == "bridged") options.style = LAP_FACES_BRIDGED;
-            else if (style == "triangles") options.style = LAP_FACES_TRIANGLES;
-            else throw UsageError("--faces: '" + style + "' is none of holes, bridged, triangles");
-        } else if (!a.empty() && a[0] == '-') throw UsageError("unknown option " + a);
-        else if (options.mesh.empty()) options.mesh = a;
-        else throw UsageError("more than one mesh: " + options.mesh + " and " + a);
-    }
-    if (!options.help && options.mesh.empty()) throw UsageError("no mesh given");
+    Arguments arguments;
+    options.declare(arguments);
+    arguments.counts("--grid", options.grid, 0);
+    arguments.text("--planes", options.planes);
+    arguments.count("--random", options.random, 0);
+    arguments.count("--seed", options.seed, 0, std::numeric_limits<long>::max());
+    arguments.text("--exploded", options.exploded);
+    arguments.factor("--explode", options.explode);
+    arguments.on("--faces", [&] {
+        const std::string &style = arguments.next();
+        if (style == "holes") options.style = LAP_FACES_HOLES;
+        else if (style == "bridged") options.style = LAP_FACES_BRIDGED;
+        else if (style == "triangles") options.style = LAP_FACES_TRIANGLES;
+        else throw UsageError("--faces: '" + style + "' is none of holes, bridged, triangles");
+    });
+    options.read(arguments, given);
     if (!options.vtu.empty() && options.style == LAP_FACES_HOLES)
         throw UsageError("--vtu cannot write --faces holes: VTK has no faces with holes");
     return options;

@@ -43,15 +43,14 @@ struct Options {
     bool outside = false;
 };
 
-Options parse(const std::vector<std::string> &arguments)
+Options parse(const std::vector<std::string> &given)
 {
     Options options;
+    Arguments arguments;
+    arguments.flag("--outside", options.outside);
+    arguments.text("--vtu", options.vtu);
     std::vector<std::string> plain;
-    for (std::size_t i = 0; i < arguments.size(); ++i) {
-        if (arguments[i] == "--outside") options.outside = true;
-        else if (arguments[i] == "--vtu" && i + 1 < arguments.size()) options.vtu = arguments[++i];
-        else plain.push_back(arguments[i]);
-    }
+    arguments.read(given, [&](const std::string &a) { plain.push_back(a); });
     if (plain.size() != 4) throw UsageError("a mesh and three numbers of nodes are needed");
     options.mesh = plain[0];
     for (int axis = 0; axis < 3; ++axis) options.nodes[axis] = to_count("nodes", plain[axis + 1], 2, 100000);

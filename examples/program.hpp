@@ -3,6 +3,7 @@
 #ifndef LAPIDARY_EXAMPLES_PROGRAM_HPP
 #define LAPIDARY_EXAMPLES_PROGRAM_HPP
 
+#include "arguments.hpp"
 #include "reader.hpp"
 #include "report.hpp"
 #include "vtk.hpp"
@@ -25,39 +26,6 @@ namespace examples {
 
 // Exit codes. The library refused: 1. Wrong usage: 2. A file cannot be read or written: 3.
 constexpr int exit_refused = 1, exit_usage = 2, exit_file = 3;
-
-struct UsageError : std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
-
-inline long to_count(const std::string &option, const std::string &text, long least, long most)
-{
-    std::size_t used = 0;
-    long value = 0;
-    try {
-        value = std::stol(text, &used);
-    } catch (const std::exception &) {
-        used = 0;
-    }
-    if (used == 0 || used != text.size() || value < least || value > most)
-        throw UsageError(option + ": '" + text + "' is not a number from " + std::to_string(least) + " to " +
-                         std::to_string(most));
-    return value;
-}
-
-inline double to_factor(const std::string &option, const std::string &text)
-{
-    std::size_t used = 0;
-    double value = -1;
-    try {
-        value = std::stod(text, &used);
-    } catch (const std::exception &) {
-        used = 0;
-    }
-    if (used == 0 || used != text.size() || !(value >= 0 && value <= 1000))
-        throw UsageError(option + ": '" + text + "' is not a number from 0 to 1000");
-    return value;
-}
 
 // Handles that free themselves.
 struct Free {

@@ -2,6 +2,7 @@
 //
 // Every contestant runs in a process of its own on the same arrays, one after the other, and the whole list twice, so that
 // what else the machine does is less likely to hit one contestant alone. What counts are the ratios of one run.
+#include "arguments.hpp"
 #include "contestants.hpp"
 #include "icosphere.hpp"
 #include "isolate.hpp"
@@ -38,15 +39,14 @@ options
 exit status: 0 done (a peer that fails is a result), 1 the library failed, 2 wrong usage, 3 a file cannot be read or written
 )";
 
-struct UsageError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
+using examples::Arguments;
+using examples::UsageError;
+using examples::to_count;
 
 struct Options {
   std::string mesh, json, planes;
   std::array<long, 3> grid{0, 0, 0};
-  long random = 0, repeat = 3, limit = 120;
-  std::uint64_t seed = 1;
+  long random = 0, repeat = 3, limit = 120, seed = 1;
   std::vector<std::string> peers{"pmp-epick", "pmp-epeck"};
   bool help = false;
 };
@@ -59,19 +59,6 @@ struct Contestant {
 const std::vector<Contestant>& all_peers() {
   static const std::vector<Contestant> peers{{"pmp-epick", pmp_epick}, {"pmp-epeck", pmp_epeck}, {"nef", nef}};
   return peers;
-}
-
-long to_count(const std::string& option, const std::string& text, long least) {
-  std::size_t used = 0;
-  long value = 0;
-  try {
-    value = std::stol(text, &used);
-  } catch (const std::exception&) {
-    used = 0;
-  }
-  if (used == 0 || used != text.size() || value < least || value > 1000000)
-    throw UsageError(option + ": '" + text + "' is not a number from " + std::to_string(least) + " to 1000000");
-  return value;
 }
 
 std::vector<std::string> to_peers(const std::string& list) {
@@ -88,32 +75,31 @@ std::vector<std::string> to_peers(const std::string& list) {
   return peers;
 }
 
-Options parse(const std::vector<std::string>& arguments) {
+Options parse(const std::vector<std::string>& given) {
   Options options;
-  std::size_t at = 0;
-  const auto next = [&](const std::string& option) -> const std::string& {
-    if (at == arguments.size()) throw UsageError(option + " needs another argument");
-    return arguments[at++];
-  };
-  while (at < arguments.size()) {
-    const std::string& a = arguments[at++];
-    if (a == "--help" || a == "-h") options.help = true;
-    else if (a == "--grid") {
-      for (long& n : options.grid) n = to_count(a, next(a), 0);
-      options.planes = "grid";
-      for (long n : options.grid) options.planes += " " + std::to_string(n);
-    } else if (a == "--random") {
-      options.random = to_count(a, next(a), 0);
-      options.planes = "random " + std::to_string(options.random);
-    } else if (a == "--seed") options.seed = static_cast<std::uint64_t>(to_count(a, next(a), 0));
-    else if (a == "--repeat") options.repeat = to_count(a, next(a), 1);
-    else if (a == "--limit") options.limit = to_count(a, next(a), 1);
-    else if (a == "--peers") options.peers = to_peers(next(a));
-    else if (a == "--json") options.json = next(a);
-    else if (!a.empty() && a[0] == '-') throw UsageError("unknown option " + a);
-    else if (options.mesh.empty()) options.mesh = a;
-    else throw UsageError("more than one mesh: " + options.mesh + " and " + a);
-  }
+  Arguments arguments;
+  arguments.flag("--help", options.help);
+  arguments.flag("-h", options.help);
+  arguments.on("--grid", [&] {
+    options.planes = "grid";
+    for (long& n : options.grid) {
+      n = to_count("--grid", arguments.next(), 0, examples::many_counts);
+      options.planes += " " + std::to_string(n);
+    }
+  });
+  arguments.on("--random", [&] {
+    options.random = to_count("--random", arguments.next(), 0, examples::many_counts);
+    options.planes = "random " + std::to_string(options.random);
+  });
+  arguments.count("--seed", options.seed, 0);
+  arguments.count("--repeat", options.repeat, 1);
+  arguments.count("--limit", options.limit, 1);
+  arguments.on("--peers", [&] { options.peers = to_peers(arguments.next()); });
+  arguments.text("--json", options.json);
+  arguments.read(given, [&](const std::string& a) {
+    if (!options.mesh.empty()) throw UsageError("more than one mesh: " + options.mesh + " and " + a);
+    options.mesh = a;
+  });
   if (!options.help && options.mesh.empty()) throw UsageError("no mesh given");
   if (!options.help && options.planes.empty()) throw UsageError("no planes given");
   return options;
@@ -128,7 +114,7 @@ Input input_of(const Options& options) {
   Input input;
   const std::string sphere = "icosphere:";
   if (options.mesh.compare(0, sphere.size(), sphere) == 0) {
-    const long level = to_count("icosphere", options.mesh.substr(sphere.size()), 0);
+    const long level = to_count("icosphere", options.mesh.substr(sphere.size()), 0, 20);
     if (level > 11) throw UsageError("icosphere: more triangles than 32-bit indices can name");
     input.mesh = icosphere(static_cast<int>(level));
   } else {
