@@ -2,7 +2,6 @@
 #include "grid.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* Uneven nodes around the cube [0, 2]^3; some of its sides lie in grid planes. */

@@ -1,8 +1,6 @@
 /* lap_grid_*: blocks against the whole: keys, patches, the cut cells as a complex. */
 #include "grid.h"
 
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* The cut cells as an ordinary complex: the same elements, coordinates, volumes and keys. */

@@ -2,8 +2,8 @@
 #include "grid.h"
 
 #include <math.h>
+
 #include <stdlib.h>
-#include <string.h>
 
 int is_csr(const int32_t *offsets, int64_t rows, int64_t items)
 {

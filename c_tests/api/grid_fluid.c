@@ -2,7 +2,6 @@
 #include "grid.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* Small cells of the cube: what stands together suffices, or is said not to. */

@@ -3,7 +3,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* The arrays of embedded-boundary solvers: for solids and grids of small integers over powers of two all sums are exact in
    double, up to the thirds of centroids. `volume`: what cut cells and full boxes must add up to. */
