@@ -7,6 +7,7 @@ pub mod cut;
 pub mod exact;
 pub mod grid;
 pub mod mesh;
+pub mod network;
 
 #[global_allocator]
 static BLOCKS: base::blocks::Blocks = base::blocks::Blocks;

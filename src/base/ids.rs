@@ -69,3 +69,6 @@ ids! {
     /// A connected region of fluid in a block of a grid.
     RegionId,
 }
+
+/// For engines with elements of their own.
+pub(crate) use ids;

@@ -1,0 +1,5 @@
+//! Networks of piecewise linear functions on tetrahedra and triangles (DESIGN §5): the implicit arrangement (IA), whose
+//! surfaces are the zero sets of functions, and the material interface (MI), whose surfaces separate the regions
+//! where different materials are largest. Both are exact for any finite values.
+
+pub mod simplex;
