@@ -96,6 +96,12 @@
 /* The normal of a plane is zero. ids: plane */
 #define LAP_DEFECT_ZERO_NORMAL 12
 
+/* The corners of a tetrahedron lie in a plane, or those of a triangle of the plane on a line, exactly (equal corners included). ids: simplex */
+#define LAP_DEFECT_DEGENERATE_SIMPLEX 13
+
+/* Two simplices lie on the same side of a face that they share, or more than two share it. ids: lower simplex, higher simplex */
+#define LAP_DEFECT_OVERLAPPING_SIMPLICES 14
+
 /* Largest number of threads of a context. */
 #define LAP_MAX_THREADS 1024
 

@@ -76,7 +76,7 @@ void test_status(void)
 
     STATUS(LAP_OK, lap_defect_name(LAP_DEFECT_OPEN_EDGE, &name));
     CHECK(strcmp(name, "LAP_DEFECT_OPEN_EDGE") == 0);
-    for (i = LAP_DEFECT_NON_FINITE_COORDINATE; i <= LAP_DEFECT_ZERO_NORMAL; ++i) {
+    for (i = LAP_DEFECT_NON_FINITE_COORDINATE; i <= LAP_DEFECT_OVERLAPPING_SIMPLICES; ++i) {
         STATUS(LAP_OK, lap_defect_name(i, &name));
         CHECK(strchr(name, '?') == NULL);
     }

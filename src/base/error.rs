@@ -56,6 +56,11 @@ pub enum DefectKind {
     NonFinitePlane = 11,
     /// Plane with a zero normal. ids: plane
     ZeroNormal = 12,
+    /// The corners of a tetrahedron lie in a plane, or those of a triangle of the plane on a line, exactly (equal corners
+    /// included). ids: simplex
+    DegenerateSimplex = 13,
+    /// Two simplices lie on the same side of a face that they share (or more than two share it). ids: lower simplex, higher simplex
+    OverlappingSimplices = 14,
 }
 
 /// One defect: its kind and the ids of the elements, −1 where unused.

@@ -64,10 +64,16 @@ ids! {
     ComponentId,
     /// A box of a block of a rectilinear grid: i + nx·(j + ny·k).
     BoxId,
-    /// A node of a block of a rectilinear grid: i + (nx + 1)·(j + (ny + 1)·k).
+    /// A node of a block of a rectilinear grid: i + (nx + 1)·(j + (ny + 1)·k); or a node of the domain of a network.
     NodeId,
     /// A connected region of fluid in a block of a grid.
     RegionId,
+    /// A simplex of the domain of a network: a tetrahedron, or a triangle in the plane.
+    TetId,
+    /// A function of a network (of a material interface: a material), by its place in the caller's list.
+    FunctionId,
+    /// A set of functions that polygons of a network lie on.
+    SetId,
 }
 
 /// For engines with elements of their own.

@@ -55,6 +55,10 @@ pub const LAP_DEFECT_EMPTY: i32 = 10;
 pub const LAP_DEFECT_NON_FINITE_PLANE: i32 = 11;
 /// The normal of a plane is zero. ids: plane
 pub const LAP_DEFECT_ZERO_NORMAL: i32 = 12;
+/// The corners of a tetrahedron lie in a plane, or those of a triangle of the plane on a line, exactly (equal corners included). ids: simplex
+pub const LAP_DEFECT_DEGENERATE_SIMPLEX: i32 = 13;
+/// Two simplices lie on the same side of a face that they share, or more than two share it. ids: lower simplex, higher simplex
+pub const LAP_DEFECT_OVERLAPPING_SIMPLICES: i32 = 14;
 
 const _: () = {
     assert!(LAP_OK == Status::Ok as i32);
@@ -80,6 +84,8 @@ const _: () = {
     assert!(LAP_DEFECT_EMPTY == DefectKind::Empty as i32);
     assert!(LAP_DEFECT_NON_FINITE_PLANE == DefectKind::NonFinitePlane as i32);
     assert!(LAP_DEFECT_ZERO_NORMAL == DefectKind::ZeroNormal as i32);
+    assert!(LAP_DEFECT_DEGENERATE_SIMPLEX == DefectKind::DegenerateSimplex as i32);
+    assert!(LAP_DEFECT_OVERLAPPING_SIMPLICES == DefectKind::OverlappingSimplices as i32);
 };
 
 /// The version of the library that is running.
@@ -182,6 +188,8 @@ fn defect_name(kind: i32) -> &'static CStr {
         LAP_DEFECT_EMPTY => c"LAP_DEFECT_EMPTY",
         LAP_DEFECT_NON_FINITE_PLANE => c"LAP_DEFECT_NON_FINITE_PLANE",
         LAP_DEFECT_ZERO_NORMAL => c"LAP_DEFECT_ZERO_NORMAL",
+        LAP_DEFECT_DEGENERATE_SIMPLEX => c"LAP_DEFECT_DEGENERATE_SIMPLEX",
+        LAP_DEFECT_OVERLAPPING_SIMPLICES => c"LAP_DEFECT_OVERLAPPING_SIMPLICES",
         _ => c"LAP_DEFECT_?",
     }
 }

@@ -157,5 +157,11 @@ pub fn describe(culprit: &Culprit) -> String {
         DefectKind::Empty => "the mesh has no triangles".into(),
         DefectKind::NonFinitePlane => format!("plane {a} has a coefficient that is not finite"),
         DefectKind::ZeroNormal => format!("plane {a} has a zero normal"),
+        DefectKind::DegenerateSimplex => {
+            format!("simplex {a} is degenerate: its corners lie in a plane (in two dimensions: on a line)")
+        }
+        DefectKind::OverlappingSimplices => {
+            format!("simplices {a} and {b} lie on the same side of a face that they share")
+        }
     }
 }

@@ -2,4 +2,12 @@
 //! surfaces are the zero sets of functions, and the material interface (MI), whose surfaces separate the regions
 //! where different materials are largest. Both are exact for any finite values.
 
+pub mod data;
+pub mod domain;
 pub mod simplex;
+pub mod tet_mesh;
+
+pub use data::{Network, SetItem, Values};
+pub use domain::{BoxGrid, Domain};
+pub use simplex::Kind;
+pub use tet_mesh::TetMesh;
