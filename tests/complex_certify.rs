@@ -476,6 +476,7 @@ fn real_models_are_certified() {
     };
     let share = |n: usize, of: usize| format!("{:.1} %", 100.0 * n as f64 / of as f64);
     println!("| | {} |", names.join(" | "));
+    println!("| --- |{}", " ---: |".repeat(names.len()));
     line("without self-intersection, before repair", &|r| share(r.clean_before, r.cuts));
     line("certified", &|r| share(r.certified, r.cuts));
     line("vertices moved", &|r| r.moved.to_string());
