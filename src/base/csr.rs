@@ -1,8 +1,8 @@
 //! Compressed sparse rows: everything of varying length lives in one flat array with offsets, filled by
 //! count, prefix sum, fill. No per-element `Vec`.
 
-use super::parallel;
-use rayon::prelude::*;
+use super::parallel::{self, each_part};
+use std::ops::Range;
 
 /// What can index a row.
 pub trait Offset: Copy {
@@ -16,18 +16,27 @@ impl Offset for usize {
     }
 }
 
-/// Pairs of a row and an item, in a fixed order.
-pub trait Walk<T>: Sync {
-    fn walk(&self, visit: impl FnMut(usize, T));
+/// Pairs of a row and an item in a fixed order, at positions `0..positions()`; at a position there may be none or several.
+///
+/// # Safety
+/// A walk over the same positions yields the same pairs whenever it is made: places are counted in one walk and written in
+/// the next.
+pub unsafe trait Walk<T>: Sync {
+    fn positions(&self) -> usize;
+    fn walk(&self, positions: Range<usize>, visit: impl FnMut(usize, T));
 }
 
-/// Those of an iterator.
-struct Pairs<I>(I);
+/// The pairs of `of(positions)`.
+struct Positions<F>(usize, F);
 
-impl<T, I: Iterator<Item = (usize, T)> + Clone + Sync> Walk<T> for Pairs<I> {
+// SAFETY: the functions given to `from_positions` only read what is borrowed and does not change meanwhile.
+unsafe impl<T, I: Iterator<Item = (usize, T)>, F: Fn(Range<usize>) -> I + Sync> Walk<T> for Positions<F> {
+    fn positions(&self) -> usize {
+        self.0
+    }
     #[inline]
-    fn walk(&self, mut visit: impl FnMut(usize, T)) {
-        for (row, item) in self.0.clone() {
+    fn walk(&self, positions: Range<usize>, mut visit: impl FnMut(usize, T)) {
+        for (row, item) in (self.1)(positions) {
             visit(row, item);
         }
     }
@@ -106,66 +115,116 @@ impl<T> Csr<T> {
         if parts.len() == 1 {
             return parts.pop().expect("one part");
         }
-        let first = parallel::offsets(parts.iter().map(|p| p.items.len()));
-        // The last part is the end of all.
-        let lengths: Vec<usize> = parts.iter().map(Self::len).chain([1]).collect();
-        let offsets = parallel::write_parts(&lengths, |i, out| match parts.get(i) {
-            Some(part) => out.extend(part.offsets[..part.len()].iter().map(|o| o + first[i] as u32)),
-            None => out.push(first[i] as u32),
-        });
+        let offsets = Self::concat_offsets(&parts.iter().collect::<Vec<_>>());
         Self { offsets, items: parallel::concat(parts.into_iter().map(|p| p.items).collect()) }
     }
 
-    /// Sorts `(row, item)` pairs into rows, keeping the order of the pairs within a row (a counting sort).
-    /// `pairs` is walked twice. Cost: linear; shared out among threads as in [`Csr::from_walk`].
-    pub fn from_pairs<I>(rows: usize, pairs: I) -> Self
+    /// The offsets of all parts behind one another.
+    pub fn concat_offsets(parts: &[&Self]) -> Vec<u32>
     where
-        T: Copy + Default + Send,
-        I: Iterator<Item = (usize, T)> + Clone + Send + Sync,
+        T: Sync,
     {
-        Self::from_walk(rows, &Pairs(pairs))
+        let first = parallel::offsets(parts.iter().map(|p| p.items.len()));
+        // The last part is the end of all.
+        let lengths: Vec<usize> = parts.iter().map(|p| p.len()).chain([1]).collect();
+        parallel::write_parts(&lengths, |i, out| match parts.get(i) {
+            Some(part) => out.extend(part.offsets[..part.len()].iter().map(|o| o + first[i] as u32)),
+            None => out.push(first[i] as u32),
+        })
     }
 
-    /// The same for pairs that come from a walk: a loop written out is faster than nested iterators. Each thread of the current
-    /// rayon pool takes a range of rows, and walks all pairs twice to find those that are in it.
+    /// Sorts `(row, item)` pairs into rows, keeping the order of the pairs within a row (a counting sort), on one thread.
+    /// `pairs` is walked twice. Cost: linear.
+    pub fn from_pairs<I>(rows: usize, pairs: I) -> Self
+    where
+        T: Copy + Default,
+        I: Iterator<Item = (usize, T)> + Clone,
+    {
+        let mut sorted = Self::default();
+        sorted.fill(rows, pairs);
+        sorted
+    }
+
+    /// The same, into buffers that are there already.
+    pub fn fill<I>(&mut self, rows: usize, pairs: I)
+    where
+        T: Copy + Default,
+        I: Iterator<Item = (usize, T)> + Clone,
+    {
+        self.offsets.clear();
+        self.offsets.resize(rows + 1, 0);
+        let (_, starts) = self.offsets.split_first_mut().expect("an offset before the first row");
+        pairs.clone().for_each(|(row, _)| starts[row] += 1);
+        let sum = starts_of(&mut [starts], 0);
+        self.items.clear();
+        self.items.resize(sum as usize, T::default());
+        // Filling moves each start to the end of its row.
+        pairs.for_each(|(row, item)| {
+            self.items[starts[row] as usize] = item;
+            starts[row] += 1;
+        });
+    }
+
+    /// The same for pairs that come from positions `0..count`, in their order; `of` yields those of a range of positions. Shared
+    /// out among the threads of the current rayon pool as in [`Csr::from_walk`].
+    pub fn from_positions<I>(rows: usize, count: usize, of: impl Fn(Range<usize>) -> I + Sync) -> Self
+    where
+        T: Copy + Send,
+        I: Iterator<Item = (usize, T)>,
+    {
+        Self::from_walk(rows, &Positions(count, of))
+    }
+
+    /// The same for a walk: a loop written out is faster than nested iterators. Each thread counts the pairs of some positions by row,
+    /// and then writes them where those of earlier positions end. Cost: linear, and a count per row and thread.
     pub fn from_walk(rows: usize, pairs: &impl Walk<T>) -> Self
     where
-        T: Copy + Default + Send,
+        T: Copy + Send,
     {
-        let parts = if rows < 1 << 12 { 1 } else { rayon::current_num_threads().clamp(1, rows) };
-        let bounds: Vec<usize> = (0..=parts).map(|p| rows * p / parts).collect();
+        let count = pairs.positions();
+        // Counts of many rows by many threads would be more than the pairs.
+        let most = rayon::current_num_threads().min(4.max((1 << 20) / rows.max(1)));
+        let parts = (count / LEAST).clamp(1, most);
+        let positions = |p: usize| count * p / parts..count * (p + 1) / parts;
         let mut offsets = vec![0u32; rows + 1];
-        // Behind each row's start within its range; `offsets[0]` stays 0.
-        let totals = each_part(split(&mut offsets[1..], bounds.windows(2).map(|w| w[1] - w[0])), |p, starts| {
-            let (first, counts) = (bounds[p], &mut *starts);
-            pairs.walk(move |row, _| {
-                if let Some(n) = counts.get_mut(row.wrapping_sub(first)) {
-                    *n += 1;
-                }
-            });
-            let mut sum = 0;
-            for n in starts.iter_mut() {
-                (*n, sum) = (sum, sum + *n);
+        // The last part counts in `offsets` itself, behind each row's start.
+        let mut before: Vec<Vec<u32>> = (1..parts).map(|_| vec![0u32; rows]).collect();
+        let mut starts: Vec<&mut [u32]> = before.iter_mut().map(Vec::as_mut_slice).chain([&mut offsets[1..]]).collect();
+        each_part(starts.iter_mut().collect(), |p, counts| pairs.walk(positions(p), |row, _| counts[row] += 1));
+        // From counts to starts, by ranges of rows.
+        let bands = if parts == 1 { 1 } else { (rows / LEAST).clamp(1, 4 * parts) };
+        let mut split: Vec<Vec<&mut [u32]>> = (0..bands).map(|_| Vec::with_capacity(parts)).collect();
+        for mut rest in starts.iter_mut().map(|s| &mut s[..]) {
+            for (b, band) in split.iter_mut().enumerate() {
+                let (part, behind) = rest.split_at_mut(rows * (b + 1) / bands - rows * b / bands);
+                band.push(part);
+                rest = behind;
             }
-            sum as usize
-        });
-        let mut items = vec![T::default(); totals.iter().sum()];
-        let starts = split(&mut offsets[1..], bounds.windows(2).map(|w| w[1] - w[0]));
-        let parts = starts.into_iter().zip(split(&mut items, totals.iter().copied())).collect();
-        each_part(parts, |p, (starts, items)| {
-            let (first, next) = (bounds[p], &mut *starts);
-            pairs.walk(move |row, item| {
-                if let Some(at) = next.get_mut(row.wrapping_sub(first)) {
-                    items[*at as usize] = item;
-                    *at += 1;
-                }
+        }
+        let totals = match bands {
+            1 => vec![0],
+            _ => each_part(split.iter_mut().collect(), |_, band| {
+                band.iter().map(|counts| counts.iter().sum::<u32>() as usize).sum()
+            }),
+        };
+        let first = parallel::offsets(totals.into_iter());
+        let ends = each_part(split, |b, mut band| starts_of(&mut band, first[b] as u32));
+        let total = ends[bands - 1] as usize;
+        let mut items: Vec<T> = Vec::with_capacity(total);
+        let room = Room(items.as_mut_ptr());
+        each_part(starts, |p, next| {
+            let room = &room;
+            pairs.walk(positions(p), |row, item| {
+                let at = next[row] as usize;
+                assert!(at < total, "a walk is repeated");
+                // SAFETY: within the capacity. Starts lie as far apart as each part has pairs in each row, and a walk
+                // repeated yields as many, so every place is written once, by one thread.
+                unsafe { room.0.add(at).write(item) };
+                next[row] += 1;
             });
-            // Filling has moved each start to the end of its row.
-            let base = totals[..p].iter().sum::<usize>() as u32;
-            if base != 0 {
-                starts.iter_mut().for_each(|end| *end += base);
-            }
         });
+        // SAFETY: as many places as there are pairs, and each has been written.
+        unsafe { items.set_len(total) };
         Self { offsets, items }
     }
 
@@ -184,23 +243,27 @@ impl<T> Csr<T> {
     }
 }
 
-/// Consecutive parts of a slice.
-fn split<T>(mut slice: &mut [T], lengths: impl Iterator<Item = usize>) -> Vec<&mut [T]> {
-    lengths
-        .map(|length| {
-            let (part, behind) = std::mem::take(&mut slice).split_at_mut(length);
-            slice = behind;
-            part
-        })
-        .collect()
-}
+/// Positions or rows in one task at least.
+const LEAST: usize = 1 << 12;
 
-/// Runs over parts, at once if there are several.
-fn each_part<P: Send, R: Send>(parts: Vec<P>, body: impl Fn(usize, P) -> R + Sync + Send) -> Vec<R> {
-    match parts.len() {
-        1 => parts.into_iter().map(|part| body(0, part)).collect(),
-        _ => parts.into_par_iter().enumerate().with_max_len(1).map(|(p, part)| body(p, part)).collect(),
+/// The places that threads write to.
+struct Room<T>(*mut T);
+
+// SAFETY: threads only write values of `T` through it, each to places of its own.
+unsafe impl<T: Send> Sync for Room<T> {}
+
+/// Turns the counts of several parts, by row, into starts: of each row, one part behind the other. Returns where the last row ends.
+fn starts_of(parts: &mut [&mut [u32]], first: u32) -> u32 {
+    let mut sum = first;
+    match parts {
+        [starts] => starts.iter_mut().for_each(|n| (*n, sum) = (sum, sum + *n)),
+        _ => {
+            for row in 0..parts[0].len() {
+                parts.iter_mut().for_each(|starts| (starts[row], sum) = (sum, sum + starts[row]));
+            }
+        }
     }
+    sum
 }
 
 #[cfg(test)]
@@ -218,8 +281,11 @@ mod tests {
             }
             let sorted = |threads: usize| {
                 let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-                pool.install(|| Csr::from_pairs(rows, pairs.clone()))
+                let of =
+                    |positions: Range<usize>| positions.filter(|i| i % 7 != 0).map(|i| ((i * 7919) % rows, i as u32));
+                pool.install(|| Csr::from_positions(rows, count, of))
             };
+            assert_eq!(sorted(1), Csr::from_pairs(rows, pairs.clone()));
             let one = sorted(1);
             assert_eq!(one.check(), Ok(()));
             assert!(count >= 100 || one == expected);

@@ -4,6 +4,7 @@
 use rayon::prelude::*;
 use std::mem::MaybeUninit;
 use std::ops::Range;
+use std::sync::Mutex;
 
 /// Consecutive ranges that cover `0..count`: one on one thread, else several per thread (they differ in work) of `least`
 /// positions or more.
@@ -40,31 +41,102 @@ impl<T: Copy> Writer<'_, T> {
     }
 }
 
+/// Runs over parts, at once if there are several and threads for them; what `body` yields, in order.
+pub fn each_part<P: Send, R: Send>(parts: Vec<P>, body: impl Fn(usize, P) -> R + Sync + Send) -> Vec<R> {
+    if parts.len() == 1 || rayon::current_num_threads() == 1 {
+        return parts.into_iter().enumerate().map(|(i, part)| body(i, part)).collect();
+    }
+    parts.into_par_iter().enumerate().with_max_len(1).map(|(i, part)| body(i, part)).collect()
+}
+
+/// An array that is being written in parts.
+struct Parts<T>(Vec<T>);
+
+impl<T: Copy + Send> Parts<T> {
+    fn of(lengths: &[usize]) -> Self {
+        Self(Vec::with_capacity(lengths.iter().sum()))
+    }
+    fn writers(&mut self, lengths: &[usize]) -> Vec<Writer<'_, T>> {
+        let mut rest = self.0.spare_capacity_mut();
+        lengths
+            .iter()
+            .map(|&length| {
+                let (part, behind) = std::mem::take(&mut rest).split_at_mut(length);
+                rest = behind;
+                Writer { rest: part.iter_mut() }
+            })
+            .collect()
+    }
+    /// # Safety
+    /// All parts are full.
+    unsafe fn done(mut self, lengths: &[usize]) -> Vec<T> {
+        // SAFETY: the parts cover the first places, so many.
+        unsafe { self.0.set_len(lengths.iter().sum()) };
+        self.0
+    }
+}
+
+impl<T> Writer<'_, T> {
+    /// Panics where the part is not full.
+    fn end(self, part: usize) {
+        assert_eq!(self.rest.len(), 0, "part {part} is not filled");
+    }
+}
+
 /// An array in parts of known lengths, each filled by `write(part, writer)`; panics if a part is not filled.
 /// Cost: that of the writes; the array is not zeroed before.
-pub fn write_parts<T: Copy + Send>(lengths: &[usize], write: impl Fn(usize, &mut Writer<T>) + Sync) -> Vec<T> {
-    let total = lengths.iter().sum();
-    let mut all: Vec<T> = Vec::with_capacity(total);
-    let mut rest = &mut all.spare_capacity_mut()[..total];
-    let mut parts = Vec::with_capacity(lengths.len());
-    for (i, &length) in lengths.iter().enumerate() {
-        let (part, behind) = rest.split_at_mut(length);
-        rest = behind;
-        parts.push((i, part));
-    }
-    let fill = |(i, part): (usize, &mut [MaybeUninit<T>])| {
-        let mut writer = Writer { rest: part.iter_mut() };
+pub fn write_parts<T: Copy + Send>(lengths: &[usize], write: impl Fn(usize, &mut Writer<T>) + Sync + Send) -> Vec<T> {
+    let mut all = Parts::of(lengths);
+    each_part(all.writers(lengths), |i, mut writer| {
         write(i, &mut writer);
-        assert_eq!(writer.rest.len(), 0, "part {i} is not filled");
-    };
-    if lengths.len() == 1 || rayon::current_num_threads() == 1 {
-        parts.into_iter().for_each(fill);
-    } else {
-        parts.into_par_iter().with_max_len(1).for_each(fill);
+        writer.end(i);
+    });
+    // SAFETY: each part was found to be filled to its end.
+    unsafe { all.done(lengths) }
+}
+
+/// Three arrays at once, in as many parts each.
+pub fn write_parts3<A: Copy + Send, B: Copy + Send, C: Copy + Send>(
+    lengths: [&[usize]; 3],
+    write: impl Fn(usize, &mut Writer<A>, &mut Writer<B>, &mut Writer<C>) + Sync + Send,
+) -> (Vec<A>, Vec<B>, Vec<C>) {
+    assert!(lengths[1].len() == lengths[0].len() && lengths[2].len() == lengths[0].len(), "as many parts of each");
+    let (mut a, mut b, mut c) = (Parts::of(lengths[0]), Parts::of(lengths[1]), Parts::of(lengths[2]));
+    let writers = a.writers(lengths[0]).into_iter().zip(b.writers(lengths[1])).zip(c.writers(lengths[2])).collect();
+    each_part(writers, |i, ((mut a, mut b), mut c)| {
+        write(i, &mut a, &mut b, &mut c);
+        (a.end(i), b.end(i), c.end(i));
+    });
+    // SAFETY: each part was found to be filled to its end; there are as many of each.
+    unsafe { (a.done(lengths[0]), b.done(lengths[1]), c.done(lengths[2])) }
+}
+
+/// An array taken for one of another type, where it is.
+///
+/// # Safety
+/// Both types have the same layout, and every value of the one is a value of the other.
+pub unsafe fn recast<A, B>(array: Vec<A>) -> Vec<B> {
+    const { assert!(size_of::<A>() == size_of::<B>() && align_of::<A>() == align_of::<B>()) };
+    let mut array = std::mem::ManuallyDrop::new(array);
+    // SAFETY: the same allocation, which nobody else frees; lengths count elements of the same size.
+    unsafe { Vec::from_raw_parts(array.as_mut_ptr().cast(), array.len(), array.capacity()) }
+}
+
+/// Buffers that tasks take and leave behind for others: there are as many as tasks that run at once.
+#[derive(Debug, Default)]
+pub struct Pool<T>(Mutex<Vec<T>>);
+
+impl<T: Default> Pool<T> {
+    pub fn with<R>(&self, task: impl FnOnce(&mut T) -> R) -> R {
+        let mut buffers = self.all().pop().unwrap_or_default();
+        let result = task(&mut buffers);
+        self.all().push(buffers);
+        result
     }
-    // SAFETY: the parts cover the first `total` places, and each was found to be filled to its end.
-    unsafe { all.set_len(total) };
-    all
+    /// The lock is held for a push or a pop only: what a task that panicked has left is whole.
+    fn all(&self) -> std::sync::MutexGuard<'_, Vec<T>> {
+        self.0.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
+    }
 }
 
 /// All parts behind one another.

@@ -151,16 +151,22 @@ impl SharedUnionFind {
             }
             return (of, roots);
         }
-        // The roots by rising position, then each position's place among them.
-        let roots = concat(map_ranges(n, LEAST, |range| {
-            let is_root = |i: &usize| self.parent[*i].load(Ordering::Relaxed) == *i as u32 && counts(*i);
-            range.filter(is_root).map(|i| i as u32).collect()
+        // A bit for each root, and how many of them are set before each word: a root's place among all.
+        let is_root = |i: usize| self.parent[i].load(Ordering::Relaxed) == i as u32 && counts(i);
+        let words = n.div_ceil(64);
+        let word_of =
+            |w: usize| (64 * w..n.min(64 * w + 64)).fold(0u64, |bits, i| bits | (is_root(i) as u64) << (i % 64));
+        let bits: Vec<u64> = (0..words).into_par_iter().with_min_len(LEAST / 64).map(word_of).collect();
+        let mut sum = 0;
+        let before: Vec<u32> = bits.iter().map(|b| std::mem::replace(&mut sum, sum + b.count_ones())).collect();
+        let roots = concat(map_ranges(words, LEAST / 64, |range| {
+            let places = |w: usize| (0..64).filter(move |b| bits[w] >> b & 1 != 0).map(move |b| (64 * w + b) as u32);
+            let mut roots = Vec::with_capacity(range.clone().map(|w| bits[w].count_ones() as usize).sum());
+            range.filter(|&w| bits[w] != 0).for_each(|w| roots.extend(places(w)));
+            roots
         }));
-        let label: Vec<AtomicU32> =
-            (0..n as u32).into_par_iter().with_min_len(LEAST).map(|_| AtomicU32::new(0)).collect();
-        let numbers = (0..roots.len()).into_par_iter().with_min_len(LEAST);
-        numbers.for_each(|k| label[roots[k] as usize].store(k as u32, Ordering::Relaxed));
-        let label_of = |i: usize| if counts(i) { label[self.find(i)].load(Ordering::Relaxed) } else { u32::MAX };
+        let place = |i: usize| before[i / 64] + (bits[i / 64] & ((1 << (i % 64)) - 1)).count_ones();
+        let label_of = |i: usize| if counts(i) { place(self.find(i)) } else { u32::MAX };
         let of = (0..n).into_par_iter().with_min_len(LEAST).map(label_of).collect();
         (of, roots)
     }

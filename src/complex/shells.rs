@@ -103,16 +103,23 @@ struct OpenUses<'a> {
     open: &'a OpenEdges<'a>,
 }
 
-impl Walk<HalfFace> for OpenUses<'_> {
+// SAFETY: only reads what is borrowed.
+unsafe impl Walk<HalfFace> for OpenUses<'_> {
+    /// The uses that were left, then the faces.
+    fn positions(&self) -> usize {
+        self.joined.uses.len() + self.c.face_count() - self.joined.first_face
+    }
     #[inline]
-    fn walk(&self, mut visit: impl FnMut(usize, HalfFace)) {
-        for &(edge, h) in &self.joined.uses {
+    fn walk(&self, positions: Range<usize>, mut visit: impl FnMut(usize, HalfFace)) {
+        let left = self.joined.uses.len();
+        for &(edge, h) in &self.joined.uses[positions.start.min(left)..positions.end.min(left)] {
             visit(self.open.number(edge), h);
         }
         let c = self.c;
-        let first = self.joined.first_face;
-        let mut k = c.loop_offsets[c.face_loops[first] as usize] as usize;
-        for f in (first..c.face_count()).map(FaceId::of) {
+        let face = |position: usize| self.joined.first_face + position.max(left) - left;
+        let faces = face(positions.start)..face(positions.end);
+        let mut k = c.loop_offsets[c.face_loops[faces.start] as usize] as usize;
+        for f in faces.map(FaceId::of) {
             let end = c.face_corners(f).end;
             for (&v, &edge) in c.corner_vertices[k..end].iter().zip(&c.corner_edges[k..end]) {
                 if edge.is_some() {
@@ -173,6 +180,34 @@ where
 /// shell around it.
 pub fn form_cells(c: &mut Complex, shells: &Shells, host: &[Option<HalfFace>]) -> Result<()> {
     let count = shells.lowest.len();
+    if host.iter().all(Option::is_none) {
+        // A cell per shell: nothing to look up.
+        c.cell_shells = (0..=count as u32).collect();
+        sort_half_faces(c, shells, count, |s| s.at(), |s| CellId(s.0));
+    } else {
+        let (cell_of, cells) = hang_voids(shells, host)?;
+        // Shells by cell, the outer one first.
+        let outer = (0..count).filter(|&s| host[s].is_none());
+        let voids = (0..count).filter(|&s| host[s].is_some());
+        let by_cell = Csr::from_pairs(cells, outer.chain(voids).map(|s| (cell_of[s].at(), ShellId::of(s))));
+        let mut place = vec![0u32; count];
+        by_cell.items.iter().enumerate().for_each(|(i, s)| place[s.at()] = i as u32);
+        c.cell_shells = by_cell.offsets;
+        let cell = |s: ShellId| if s.is_none() { CellId::NONE } else { cell_of[s.at()] };
+        sort_half_faces(c, shells, count, |s| place[s.at()] as usize, cell);
+    }
+    let same = |range: Range<usize>| range.into_iter().find(|&f| c.face_cells[f][0] == c.face_cells[f][1]);
+    match map_ranges(c.face_count(), LEAST, same).into_iter().flatten().next() {
+        None => Ok(()),
+        Some(f) => {
+            Err(Error::inconsistent(format!("face {f} has the same cell on both sides: the surface intersects itself")))
+        }
+    }
+}
+
+/// The cell of each shell, and the number of cells.
+fn hang_voids(shells: &Shells, host: &[Option<HalfFace>]) -> Result<(Vec<CellId>, usize)> {
+    let count = host.len();
     let mut cell_of = vec![CellId::NONE; count];
     let mut cells = 0;
     for s in 0..count {
@@ -192,22 +227,21 @@ pub fn form_cells(c: &mut Complex, shells: &Shells, host: &[Option<HalfFace>]) -
         }
         cell_of[s] = cell_of[at];
     }
-    // Shells by cell, the outer one first; then half-faces by shell.
-    let outer = (0..count).filter(|&s| host[s].is_none());
-    let voids = (0..count).filter(|&s| host[s].is_some());
-    let by_cell = Csr::from_pairs(cells, outer.chain(voids).map(|s| (cell_of[s].at(), ShellId::of(s))));
-    let mut place = vec![0u32; count];
-    by_cell.items.iter().enumerate().for_each(|(i, s)| place[s.at()] = i as u32);
-    let half_faces = shells.of.iter().enumerate().filter(|(_, s)| s.is_some());
-    c.shell_faces = Csr::from_pairs(count, half_faces.map(|(h, s)| (place[s.at()] as usize, HalfFace(h as u32))));
-    c.cell_shells = by_cell.offsets;
-    let cell = |s: ShellId| if s.is_none() { CellId::NONE } else { cell_of[s.at()] };
+    Ok((cell_of, cells))
+}
+
+/// Half-faces by shell, given where each shell is among all, and the cells of each face.
+fn sort_half_faces(
+    c: &mut Complex,
+    shells: &Shells,
+    count: usize,
+    place: impl Fn(ShellId) -> usize + Sync,
+    cell: impl Fn(ShellId) -> CellId + Sync,
+) {
+    let place = &place;
+    c.shell_faces = Csr::from_positions(count, shells.of.len(), |range| {
+        let half_faces = range.clone().zip(&shells.of[range]).filter(|(_, s)| s.is_some());
+        half_faces.map(move |(h, &s)| (place(s), HalfFace(h as u32)))
+    });
     c.face_cells = shells.of.par_chunks_exact(2).with_min_len(LEAST).map(|of| [cell(of[0]), cell(of[1])]).collect();
-    let same = |range: Range<usize>| range.into_iter().find(|&f| c.face_cells[f][0] == c.face_cells[f][1]);
-    match map_ranges(c.face_count(), LEAST, same).into_iter().flatten().next() {
-        None => Ok(()),
-        Some(f) => {
-            Err(Error::inconsistent(format!("face {f} has the same cell on both sides: the surface intersects itself")))
-        }
-    }
 }

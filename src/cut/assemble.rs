@@ -120,8 +120,8 @@ enum Part {
     Whole(Range<usize>),
     /// Faces of cut triangles.
     Cut(Range<usize>),
-    /// The faces of a section.
-    Section(usize),
+    /// The faces of a section: of plane `plane` of a list of planes.
+    Section { list: usize, plane: usize, knife: KnifeId },
 }
 
 /// Where a part's faces start in the complex, and how many they are.
@@ -142,14 +142,17 @@ struct Faces<'a> {
 }
 
 impl<'a> Faces<'a> {
-    /// Sections come in the order of `order`.
-    fn new(surface: &'a Surface<'a>, whole: &'a Whole, sections: &'a [SectionFaces], order: &[usize]) -> Self {
+    /// Sections come by plane id.
+    fn new(surface: &'a Surface<'a>, whole: &'a Whole, sections: &'a [SectionFaces]) -> Self {
         let sub = surface.sub;
+        let planes = sections.iter().enumerate().flat_map(|(list, s)| (0..s.planes.len() - 1).map(move |p| (list, p)));
+        let mut by_id: Vec<_> = planes.enumerate().map(|(k, at)| (surface.knives.ids[k], KnifeId::of(k), at)).collect();
+        by_id.sort_unstable();
         let of = |count: usize| ranges(count, LEAST).into_iter();
         let parts: Vec<Part> = of(whole.triangles.len())
             .map(Part::Whole)
             .chain(of(sub.faces.len()).map(Part::Cut))
-            .chain(order.iter().copied().map(Part::Section))
+            .chain(by_id.into_iter().map(|(_, knife, (list, plane))| Part::Section { list, plane, knife }))
             .collect();
         let mut at = Place { faces: 0, loops: 0, corners: 0 };
         let mut places = Vec::with_capacity(parts.len() + 1);
@@ -157,11 +160,12 @@ impl<'a> Faces<'a> {
             let (faces, loops, corners) = match part {
                 Part::Whole(r) => (r.len(), r.len(), 3 * r.len()),
                 Part::Cut(r) => (r.len(), r.len(), (sub.faces.offsets[r.end] - sub.faces.offsets[r.start]) as usize),
-                Part::Section(k) => {
-                    let s = &sections[*k];
-                    // Loops that bound no face are in none.
-                    let corners = s.faces.items.iter().map(|&l| s.loops.row(l as usize).len()).sum();
-                    (s.faces.len(), s.faces.items.len(), corners)
+                &Part::Section { list, plane, .. } => {
+                    let s = &sections[list];
+                    let faces = s.planes[plane] as usize..s.planes[plane + 1] as usize;
+                    let loops = s.faces[faces.start] as usize..s.faces[faces.end] as usize;
+                    let corners = s.loops.offsets[loops.end] - s.loops.offsets[loops.start];
+                    (faces.len(), loops.len(), corners as usize)
                 }
             };
             let next = Place { faces: at.faces + faces, loops: at.loops + loops, corners: at.corners + corners };
@@ -187,9 +191,23 @@ impl<'a> Faces<'a> {
         })
     }
 
-    fn section_loops(&self, k: usize) -> impl Iterator<Item = &[(VertexId, EdgeId)]> {
-        let section = &self.sections[k];
-        section.faces.items.iter().map(|&l| section.loops.row(l as usize))
+    /// The faces of a section, as loops behind one another: the first loop of each face.
+    fn section_faces(&self, list: usize, plane: usize) -> &[u32] {
+        let s = &self.sections[list];
+        &s.faces[s.planes[plane] as usize..s.planes[plane + 1] as usize]
+    }
+
+    /// The loops of a section, as corners behind one another: the first corner of each loop.
+    fn section_loops(&self, list: usize, plane: usize) -> &[u32] {
+        let s = &self.sections[list];
+        let loop_of = |face: u32| s.faces[face as usize] as usize;
+        &s.loops.offsets[loop_of(s.planes[plane])..loop_of(s.planes[plane + 1])]
+    }
+
+    fn section_corners(&self, list: usize, plane: usize) -> &[(VertexId, EdgeId)] {
+        let s = &self.sections[list];
+        let corner_of = |face: u32| s.loops.offsets[s.faces[face as usize] as usize] as usize;
+        &s.loops.items[corner_of(s.planes[plane])..corner_of(s.planes[plane + 1])]
     }
 
     fn corner_vertices(&self) -> Vec<VertexId> {
@@ -205,7 +223,9 @@ impl<'a> Faces<'a> {
                     let corners = faces.offsets[r.start] as usize..faces.offsets[r.end] as usize;
                     out.extend(faces.items[corners].iter().map(|c| c.0));
                 }
-                Part::Section(k) => self.section_loops(*k).for_each(|l| out.extend(l.iter().map(|c| c.0))),
+                &Part::Section { list, plane, .. } => {
+                    out.extend(self.section_corners(list, plane).iter().map(|c| c.0));
+                }
             },
         )
     }
@@ -225,7 +245,9 @@ impl<'a> Faces<'a> {
                     let corners = faces.offsets[r.start] as usize..faces.offsets[r.end] as usize;
                     out.extend(faces.items[corners].iter().map(|c| c.1));
                 }
-                Part::Section(k) => self.section_loops(*k).for_each(|l| out.extend(l.iter().map(|c| c.1))),
+                &Part::Section { list, plane, .. } => {
+                    out.extend(self.section_corners(list, plane).iter().map(|c| c.1));
+                }
             },
         )
     }
@@ -244,12 +266,9 @@ impl<'a> Faces<'a> {
                         let first = faces.offsets[r.start];
                         out.extend(faces.offsets[r.clone()].iter().map(|o| o - first + base));
                     }
-                    Part::Section(k) => {
-                        let mut at = base;
-                        for l in self.section_loops(*k) {
-                            out.push(at);
-                            at += l.len() as u32;
-                        }
+                    &Part::Section { list, plane, .. } => {
+                        let loops = self.section_loops(list, plane);
+                        out.extend(loops.iter().map(|l| l - loops[0] + base));
                     }
                 }
             },
@@ -265,9 +284,9 @@ impl<'a> Faces<'a> {
                 let base = place.loops as u32;
                 match part {
                     Part::Whole(r) | Part::Cut(r) => out.extend((0..r.len() as u32).map(|i| base + i)),
-                    Part::Section(k) => {
-                        let faces = &self.sections[*k].faces;
-                        out.extend(faces.offsets[..faces.len()].iter().map(|o| base + o));
+                    &Part::Section { list, plane, .. } => {
+                        let faces = self.section_faces(list, plane);
+                        out.extend(faces.iter().map(|f| f - faces[0] + base));
                     }
                 }
             },
@@ -286,9 +305,9 @@ impl<'a> Faces<'a> {
             |part, _, out| match part {
                 Part::Whole(r) => out.extend(self.whole.triangles[r.clone()].iter().map(|&t| triangle(t))),
                 Part::Cut(r) => out.extend(self.surface.sub.face_triangle[r.clone()].iter().map(|&t| triangle(t))),
-                Part::Section(k) => {
-                    let value = section(self.surface.knives.ids[*k]);
-                    out.extend(std::iter::repeat_n(value, self.sections[*k].faces.len()));
+                &Part::Section { list, plane, knife } => {
+                    let value = section(self.surface.knives.ids[knife.at()]);
+                    out.extend(std::iter::repeat_n(value, self.section_faces(list, plane).len()));
                 }
             },
         )
@@ -305,13 +324,11 @@ pub fn assemble(
     inner: &InnerPoints,
     sections: &[SectionFaces],
 ) -> (Complex, Vec<u32>) {
-    let mut order: Vec<usize> = (0..sections.len()).collect();
-    order.sort_unstable_by_key(|&k| surface.knives.ids[k]);
-    let faces = Faces::new(surface, whole, sections, &order);
-    let mut first_face = vec![0; sections.len()];
+    let faces = Faces::new(surface, whole, sections);
+    let mut first_face = vec![0; surface.knives.len()];
     for (part, place) in faces.parts.iter().zip(&faces.places) {
-        if let Part::Section(k) = part {
-            first_face[*k] = place.faces as u32;
+        if let Part::Section { knife, .. } = part {
+            first_face[knife.at()] = place.faces as u32;
         }
     }
     let tag = |t: TriangleId| mesh.tags.get(t.at()).copied().unwrap_or(0);

@@ -288,6 +288,8 @@ pub struct Classified {
     pub edge_crossings: Csr<Crossing>,
     /// Mesh edges that lie in some knife, with those knives: rising edges, then knives.
     pub edges_on: Vec<(EdgeId, KnifeId)>,
+    /// Mesh edges with an end on some knife, rising.
+    pub edges_at: Vec<EdgeId>,
 }
 
 pub fn classify(mesh: &TriMesh, knives: &Knives) -> Classified {
@@ -309,7 +311,7 @@ pub fn classify(mesh: &TriMesh, knives: &Knives) -> Classified {
     let vertex_knives = knives_through(count, knives, &sides);
     let parts = map_ranges(mesh.edges.len(), CHUNK, |range| {
         let mut crossings = Csr::with_capacity(range.len(), range.len() / 4);
-        let mut on = Vec::new();
+        let (mut on, mut at) = (Vec::new(), Vec::new());
         for (e, &[a, b]) in range.clone().zip(&mesh.edges[range]) {
             let (from, to) = ((sides.slabs_of(a), sides.masks_of(a)), (sides.slabs_of(b), sides.masks_of(b)));
             each_crossing(knives, from, to, |knife, sign| {
@@ -317,14 +319,16 @@ pub fn classify(mesh: &TriMesh, knives: &Knives) -> Classified {
             });
             crossings.end_row();
             let (on_a, on_b) = (vertex_knives.row(a), vertex_knives.row(b));
-            if !on_a.is_empty() && !on_b.is_empty() {
+            if !on_a.is_empty() || !on_b.is_empty() {
+                at.push(EdgeId::of(e));
                 each_common(on_a, on_b, |k| on.push((EdgeId::of(e), k)));
             }
         }
-        (crossings, on)
+        (crossings, (on, at))
     });
-    let (crossings, on) = parts.into_iter().unzip();
-    Classified { sides, vertex_knives, edge_crossings: Csr::concat(crossings), edges_on: concat(on) }
+    let (crossings, (on, at)): (Vec<_>, (Vec<_>, Vec<_>)) = parts.into_iter().unzip();
+    let edge_crossings = Csr::concat(crossings);
+    Classified { sides, vertex_knives, edge_crossings, edges_on: concat(on), edges_at: concat(at) }
 }
 
 fn fill_slabs(mesh: &TriMesh, knives: &Knives, sides: &mut Sides) {

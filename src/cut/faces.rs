@@ -6,15 +6,18 @@
 //! edges, and single touching vertices: few. Whether an uncut curve is outer or a hole follows from the sector at its lexicographically lowest
 //! vertex; a hole is joined by its first hit from there, never by parity.
 
-use super::lines::Lines;
-use super::sections::{Carrier, LocalMap, Piece, PlaneContents, Section, projection_axes, touching_is_inside};
+use super::classify::KnifeId;
+use super::lines::{LineKnife, Lines};
+use super::sections::{
+    Carrier, LocalMap, Piece, PlaneContents, Section, SectionScratch, projection_axes, touching_is_inside,
+};
 use super::surface::Surface;
+use crate::base::parallel::{Pool, each_part, offsets};
 use crate::base::{Csr, EdgeId, Error, Result, VertexId};
 use crate::complex::locate::{PlanarPoints, RayStart, Strips};
 use crate::complex::loops::trace_loops;
 use crate::complex::{Origin, data::origin_point};
 use crate::exact::{self, Point, Sign, counters};
-use rayon::prelude::*;
 use std::cmp::Ordering;
 
 /// All vertices, inner ones included.
@@ -78,70 +81,103 @@ impl RayStart for FromVertex<'_> {
     }
 }
 
-/// The faces of one plane.
-#[derive(Debug, Default)]
+/// The faces of some planes, one plane behind the other.
+#[derive(Debug)]
 pub struct SectionFaces {
-    /// Loops of each face, outer loop first.
-    pub faces: Csr<u32>,
+    /// Plane `i` of them has faces `planes[i]..planes[i + 1]`.
+    pub planes: Vec<u32>,
+    /// Face `f` has loops `faces[f]..faces[f + 1]`, the outer loop first.
+    pub faces: Vec<u32>,
     /// Corners of each loop: vertex, and edge to the next corner (`NONE` for a single vertex).
     pub loops: Csr<(VertexId, EdgeId)>,
-    /// The face on the left of each half-edge, kept where voids may have to be located.
-    pub face_of_half_edge: Vec<u32>,
+    /// Each plane's graph, and the face (among the plane's) on the left of each half-edge; kept where voids may have to be located.
+    pub graphs: Vec<(Section, Vec<u32>)>,
 }
 
-/// Adds the lines to all sections and finds their faces. `first_line_edge` is the first edge id of line pieces.
+impl Default for SectionFaces {
+    fn default() -> Self {
+        Self { planes: vec![0], faces: vec![0], loops: Csr::default(), graphs: Vec::new() }
+    }
+}
+
+impl SectionFaces {
+    /// Forgets all planes, and keeps the memory.
+    pub fn clear(&mut self) {
+        self.planes.truncate(1);
+        self.faces.truncate(1);
+        self.loops.offsets.truncate(1);
+        self.loops.items.clear();
+        self.graphs.clear();
+    }
+}
+
+/// Adds the lines to all sections, given by the surface's pieces in them, and finds their faces: for each list of planes, theirs.
+/// `first_line_edge` is the first edge id of line pieces.
 pub fn section_faces(
     all: &AllVertices,
     contents: &PlaneContents,
-    sections: &mut [Section],
+    pieces: Vec<Csr<Piece>>,
     lines: &Lines,
     first_line_edge: u32,
-    keep_half_edges: bool,
+    pool: &Pool<SectionScratch>,
+    keep_graphs: bool,
 ) -> Result<Vec<SectionFaces>> {
-    let lines_of = Csr::from_pairs(
-        sections.len(),
-        (0..lines.knives.len()).flat_map(|l| lines.knives.range(l).map(move |k| (l, k))).map(|(l, k)| {
-            let knife = lines.knives.items[k];
-            (knife.knife.at(), (l as u32, knife))
-        }),
-    );
-    sections
-        .par_iter_mut()
-        .enumerate()
-        .map_init(LocalMap::default, |map, (k, section)| {
-            for &(l, knife) in lines_of.row(k) {
-                for s in lines.segments[l as usize]..lines.segments[l as usize + 1] {
-                    let points = lines.points.range(s as usize);
-                    let first = first_line_edge + s + points.start as u32;
-                    let [from, to] = lines.ends[s as usize];
-                    let carrier = Carrier::Line { other: knife.other, against: knife.against, ends: [from, to] };
-                    let inner = &lines.points.items[points];
-                    let mut previous = from;
-                    for (i, &v) in inner.iter().chain(std::iter::once(&to)).enumerate() {
-                        let ends = [previous, v];
-                        let edge = EdgeId(first + i as u32);
-                        section.pieces.push(Piece { ends, edge, carrier, left: true, right: true });
-                        previous = v;
-                    }
+    let lines_of = Csr::from_positions(all.surface.knives.len(), lines.knives.len(), |range| {
+        range.flat_map(|l| lines.knives.row(l).iter().map(move |k| (k.knife.at(), (l as u32, *k))))
+    });
+    let first = offsets(pieces.iter().map(Csr::len));
+    let parts = each_part(pieces, |i, pieces| {
+        pool.with(|SectionScratch { section, map }| {
+            let mut out = SectionFaces::default();
+            for (row, k) in (first[i]..first[i + 1]).enumerate() {
+                section.knife = KnifeId::of(k);
+                section.pieces.clear();
+                section.pieces.extend_from_slice(pieces.row(row));
+                for &(l, knife) in lines_of.row(k) {
+                    add_line(lines, l as usize, &knife, first_line_edge, &mut section.pieces);
+                }
+                map.prepare(all.origins.len());
+                section.build_stars(all.surface, map);
+                let outcome = faces_of(all, contents.vertices.row(k), section, map, keep_graphs, &mut out);
+                map.clear(section);
+                section.vertices.clear();
+                outcome?;
+                if keep_graphs {
+                    out.graphs.last_mut().expect("a graph per plane").0 = std::mem::take(section);
                 }
             }
-            map.prepare(all.origins.len());
-            section.build_stars(all.surface, map);
-            let faces = faces_of(all, contents.vertices.row(section.knife), section, map, keep_half_edges);
-            map.clear(section);
-            faces
+            Ok(out)
         })
-        .collect()
+    });
+    // The first error, whichever thread was faster.
+    parts.into_iter().collect()
 }
 
-/// The faces of one section with its lines. `vertices`: the mesh vertices on the plane that may touch a face.
+/// Adds the pieces of a line to those of one of its planes.
+fn add_line(lines: &Lines, l: usize, knife: &LineKnife, first_line_edge: u32, pieces: &mut Vec<Piece>) {
+    for s in lines.segments[l]..lines.segments[l + 1] {
+        let points = lines.points.range(s as usize);
+        let first = first_line_edge + s + points.start as u32;
+        let [from, to] = lines.ends[s as usize];
+        let carrier = Carrier::Line { other: knife.other, against: knife.against, ends: [from, to] };
+        let mut previous = from;
+        for (i, &v) in lines.points.items[points].iter().chain(std::iter::once(&to)).enumerate() {
+            let edge = EdgeId(first + i as u32);
+            pieces.push(Piece { ends: [previous, v], edge, carrier, left: true, right: true });
+            previous = v;
+        }
+    }
+}
+
+/// Adds the faces of one section with its lines. `vertices`: the mesh vertices on the plane that may touch a face.
 pub fn faces_of(
     all: &AllVertices,
     vertices: &[VertexId],
     section: &Section,
     map: &LocalMap,
-    keep_half_edges: bool,
-) -> Result<SectionFaces> {
+    keep_graph: bool,
+    out: &mut SectionFaces,
+) -> Result<()> {
     let surface = all.surface;
     let loops = trace_loops(2 * section.pieces.len(), &section.star, |h| section.inside_left(h)).map_err(|h| {
         Error::inconsistent(format!(
@@ -187,7 +223,7 @@ pub fn faces_of(
     }
     holes.extend(touching.iter().enumerate().map(|(i, &v)| ((loops.len() + i) as u32, v)));
     let mut loop_of = Vec::new();
-    if !holes.is_empty() || keep_half_edges {
+    if !holes.is_empty() || keep_graph {
         loop_of = vec![u32::MAX; 2 * section.pieces.len()];
         for (l, row) in loops.rows().enumerate() {
             row.iter().for_each(|&h| loop_of[h as usize] = l as u32);
@@ -196,24 +232,35 @@ pub fn faces_of(
     if !holes.is_empty() {
         join_holes(section, &seen, &holes, &loop_of, &mut face_of_loop)?;
     }
-    let mut out = SectionFaces::default();
-    for row in loops.rows() {
-        out.loops.items.extend(row.iter().map(|&h| (section.origin(h), section.pieces[h as usize / 2].edge)));
+    let corner = |h: u32| (section.origin(h), section.pieces[h as usize / 2].edge);
+    let mut push_loop = |l: usize| {
+        match touching.get(l.wrapping_sub(loops.len())) {
+            Some(&v) => out.loops.items.push((v, EdgeId::NONE)),
+            None => out.loops.items.extend(loops.row(l).iter().map(|&h| corner(h))),
+        }
         out.loops.end_row();
+    };
+    // Outer loops are numbered in loop order.
+    let first = *out.faces.last().expect("an offset before the first face");
+    let face_count = out.faces.len() as u32 - 1;
+    if holes.is_empty() {
+        (0..loops.len()).for_each(&mut push_loop);
+        out.faces.extend((1..=outer_count).map(|f| first + f));
+    } else {
+        // Outer loops first: the counting sort keeps the order within a face.
+        let is_hole = |l: u32| holes.binary_search_by_key(&l, |h| h.0).is_ok();
+        let count = face_of_loop.len() as u32;
+        let ordered = (0..count).filter(|&l| !is_hole(l)).chain((0..count).filter(|&l| is_hole(l)));
+        let faces = Csr::from_pairs(outer_count as usize, ordered.map(|l| (face_of_loop[l as usize] as usize, l)));
+        faces.items.iter().for_each(|&l| push_loop(l as usize));
+        out.faces.extend(faces.offsets[1..].iter().map(|end| first + end));
     }
-    for &v in &touching {
-        out.loops.push_row(&[(v, EdgeId::NONE)]);
+    out.planes.push(face_count + outer_count);
+    if keep_graph {
+        let face = |&l: &u32| if l == u32::MAX { l } else { face_of_loop[l as usize] };
+        out.graphs.push((Section::default(), loop_of.iter().map(face).collect()));
     }
-    // Outer loops first: they were numbered in loop order, and the counting sort keeps that order within a face.
-    let is_hole = |l: u32| holes.binary_search_by_key(&l, |h| h.0).is_ok();
-    let count = face_of_loop.len() as u32;
-    let ordered = (0..count).filter(|&l| !is_hole(l)).chain((0..count).filter(|&l| is_hole(l)));
-    out.faces = Csr::from_pairs(outer_count as usize, ordered.map(|l| (face_of_loop[l as usize] as usize, l)));
-    if keep_half_edges {
-        out.face_of_half_edge =
-            loop_of.iter().map(|&l| if l == u32::MAX { l } else { face_of_loop[l as usize] }).collect();
-    }
-    Ok(out)
+    Ok(())
 }
 
 /// For a loop of surface pieces alone: `None` if it is an outer loop, its lexicographically lowest vertex if it is a hole.

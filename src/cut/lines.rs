@@ -14,12 +14,14 @@
 //! Lines outside the solid, and points on them, are never generated.
 
 use super::classify::{KnifeId, Place, each_common, each_crossing};
-use super::sections::{LocalMap, PlaneContents, Section, surface_pieces};
+use super::sections::{LocalMap, Piece, PlaneContents, Section, SectionScratch, surface_pieces};
 use super::surface::Surface;
+use crate::base::parallel::{Pool, concat, map_ranges, offsets, recast, write_parts};
 use crate::base::{Csr, EdgeId, Error, PlaneId, Result, VertexId};
 use crate::exact::{self, Direction, Point, Sign, counters};
 use rayon::prelude::*;
 use std::cmp::Ordering;
+use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 /// A plane on a line: the line's direction is +(n_P × n_other), or minus that if `against`.
 #[derive(Clone, Copy, Debug, Default)]
@@ -44,42 +46,48 @@ pub struct Lines {
     sets: Csr<KnifeId>,
 }
 
-/// The graphs of all planes with the surface's pieces, and the lines.
-pub fn sections_and_lines(surface: &Surface, contents: &PlaneContents) -> Result<(Vec<Section>, Lines)> {
+/// The lines, and the surface's pieces in each plane: lists of some consecutive planes each, in order.
+pub fn sections_and_lines(
+    surface: &Surface,
+    contents: &PlaneContents,
+    pool: &Pool<SectionScratch>,
+) -> Result<(Vec<Csr<Piece>>, Lines)> {
     let shared = pairs_by_knife(surface);
     let vertex_count = surface.origins.len();
-    let results: Vec<Result<(Section, Lines)>> = (0..surface.knives.len())
-        .into_par_iter()
-        .map_init(Default::default, |scratch: &mut Scratch, k| {
-            let knife = KnifeId::of(k);
-            let mut section = Section { knife, ..Default::default() };
-            surface_pieces(surface, contents, knife, &mut section.pieces);
-            scratch.map.prepare(vertex_count);
-            section.build_stars(surface, &mut scratch.map);
+    let parts = map_ranges(surface.knives.len(), 1, |range| {
+        pool.with(|SectionScratch { section, map }| {
+            map.prepare(vertex_count);
+            let mut scratch = Scratch::default();
+            let mut pieces = Csr::default();
             let mut lines = Lines { segments: vec![0], ..Default::default() };
-            let outcome = scratch.lines_of(surface, &section, shared.row(knife), &mut lines);
-            scratch.map.clear(&section);
-            outcome.map(|()| (section, lines))
+            for knife in range.map(KnifeId::of) {
+                section.knife = knife;
+                section.pieces.clear();
+                surface_pieces(surface, contents, knife, &mut section.pieces);
+                section.build_stars(surface, map);
+                let outcome = scratch.lines_of(surface, section, map, shared.row(knife), &mut lines);
+                map.clear(section);
+                section.vertices.clear();
+                outcome?;
+                pieces.push_row(&section.pieces);
+            }
+            Ok((pieces, lines))
         })
-        .collect();
-    let mut sections = Vec::with_capacity(results.len());
-    let mut all = Lines { segments: vec![0], ..Default::default() };
-    for result in results {
-        let (section, lines) = result?;
-        sections.push(section);
-        all.append(lines);
-    }
-    Ok((sections, all))
+    });
+    // The first error, whichever thread was faster.
+    let (pieces, lines) = parts.into_iter().collect::<Result<Vec<_>>>()?.into_iter().unzip();
+    Ok((pieces, Lines::concat(lines)))
 }
 
 /// For each knife P the surface vertices that it shares with a higher knife Q.
 fn pairs_by_knife(surface: &Surface) -> Csr<(KnifeId, VertexId)> {
-    let pairs = (0..surface.origins.len()).flat_map(|v| {
-        let set = surface.set(VertexId::of(v));
-        let lower = set.len().saturating_sub(1);
-        (0..lower).flat_map(move |i| set[i + 1..].iter().map(move |&q| (set[i].at(), (q, VertexId::of(v)))))
-    });
-    Csr::from_pairs(surface.knives.len(), pairs)
+    Csr::from_positions(surface.knives.len(), surface.origins.len(), |range| {
+        range.map(VertexId::of).flat_map(|v| {
+            let set = surface.set(v);
+            let lower = set.len().saturating_sub(1);
+            (0..lower).flat_map(move |i| set[i + 1..].iter().map(move |&q| (set[i].at(), (q, v))))
+        })
+    })
 }
 
 impl Lines {
@@ -115,19 +123,29 @@ impl Lines {
         }
     }
 
-    fn append(&mut self, other: Lines) {
-        let (segments, points) = (self.ends.len() as u32, self.names.len() as u32);
-        let knives = self.knives.items.len() as u32;
-        self.knives.items.extend(other.knives.items);
-        self.knives.offsets.extend(other.knives.offsets[1..].iter().map(|o| o + knives));
-        self.segments.extend(other.segments[1..].iter().map(|s| s + segments));
-        self.ends.extend(other.ends);
-        self.points.items.extend(other.points.items);
-        self.points.offsets.extend(other.points.offsets[1..].iter().map(|o| o + points));
-        self.names.extend(other.names);
-        let sets = self.sets.items.len() as u32;
-        self.sets.items.extend(other.sets.items);
-        self.sets.offsets.extend(other.sets.offsets[1..].iter().map(|o| o + sets));
+    /// All parts behind one another.
+    fn concat(mut parts: Vec<Lines>) -> Lines {
+        if parts.len() == 1 {
+            return parts.pop().expect("one part");
+        }
+        fn all<T: Default>(parts: &mut [Lines], of: impl Fn(&mut Lines) -> &mut T) -> Vec<T> {
+            parts.iter_mut().map(|p| std::mem::take(of(p))).collect()
+        }
+        let first = offsets(parts.iter().map(|p| p.ends.len()));
+        // A part's own list begins with 0, and ends with what the next one begins with.
+        let lengths: Vec<usize> = parts.iter().map(|p| p.segments.len() - 1).chain([1]).collect();
+        let segments = write_parts(&lengths, |i, out| match parts.get(i) {
+            Some(part) => out.extend(part.segments[..lengths[i]].iter().map(|s| s + first[i] as u32)),
+            None => out.push(first[i] as u32),
+        });
+        Lines {
+            knives: Csr::concat(all(&mut parts, |p| &mut p.knives)),
+            segments,
+            ends: concat(all(&mut parts, |p| &mut p.ends)),
+            points: Csr::concat(all(&mut parts, |p| &mut p.points)),
+            names: concat(all(&mut parts, |p| &mut p.names)),
+            sets: Csr::concat(all(&mut parts, |p| &mut p.sets)),
+        }
     }
 
     pub fn check(&self) -> std::result::Result<(), String> {
@@ -150,24 +168,43 @@ pub struct InnerPoints {
 
 /// Unifies the points that several lines met: equal names are equal points. Numbers them by name.
 pub fn number_inner(surface: &Surface, lines: &mut Lines, first: u32) -> InnerPoints {
-    let mut order: Vec<([KnifeId; 3], u32)> = lines.names.iter().enumerate().map(|(i, &n)| (n, i as u32)).collect();
+    let (names, sets) = (std::mem::take(&mut lines.names), std::mem::take(&mut lines.sets));
+    let mut order: Vec<([KnifeId; 3], u32)> =
+        names.par_iter().with_min_len(LEAST).enumerate().map(|(i, &n)| (n, i as u32)).collect();
+    drop(names);
     order.par_sort_unstable();
-    let mut inner = InnerPoints::default();
-    lines.points.items = vec![VertexId::NONE; order.len()];
-    let mut previous = None;
-    for (name, at) in order {
-        if previous != Some(name) {
-            previous = Some(name);
-            let set = lines.sets.row(at as usize);
-            inner.names.push(plane_name(surface, set));
-            inner.knives.push_row(set);
+    let is_first = |i: usize| i == 0 || order[i - 1].0 != order[i].0;
+    let (starts, counts): (Vec<usize>, Vec<usize>) =
+        map_ranges(order.len(), LEAST, |range| (range.start, range.filter(|&i| is_first(i)).count()))
+            .into_iter()
+            .unzip();
+    let before = offsets(counts.into_iter());
+    let vertices: Vec<AtomicU32> =
+        (0..order.len()).into_par_iter().with_min_len(LEAST).map(|_| AtomicU32::new(0)).collect();
+    let parts = map_ranges(order.len(), LEAST, |range| {
+        let part = starts.partition_point(|&s| s < range.start);
+        let count = before[part + 1] - before[part];
+        let mut inner = InnerPoints { names: Vec::with_capacity(count), knives: Csr::with_capacity(count, 3 * count) };
+        for (i, &(_, at)) in range.clone().zip(&order[range]) {
+            if is_first(i) {
+                let set = sets.row(at as usize);
+                inner.names.push(plane_name(surface, set));
+                inner.knives.push_row(set);
+            }
+            // One that begins before the part is the last one there.
+            let number = before[part] + inner.names.len() - 1;
+            vertices[at as usize].store(first + number as u32, Relaxed);
         }
-        lines.points.items[at as usize] = VertexId(first + inner.names.len() as u32 - 1);
-    }
-    lines.names = Vec::new();
-    lines.sets = Csr::default();
-    inner
+        inner
+    });
+    // SAFETY: an id is a transparent word, and so is an atomic one.
+    lines.points.items = unsafe { recast(vertices) };
+    let (names, knives) = parts.into_iter().map(|p| (p.names, p.knives)).unzip();
+    InnerPoints { names: concat(names), knives: Csr::concat(knives) }
 }
+
+/// Elements in one task at least.
+const LEAST: usize = 1 << 13;
 
 /// The lexicographically first independent triple of a set, by plane id.
 fn plane_name(surface: &Surface, set: &[KnifeId]) -> [PlaneId; 3] {
@@ -265,7 +302,6 @@ impl Gathered {
 #[derive(Default)]
 struct Scratch {
     gathered: Gathered,
-    map: LocalMap,
     shared: Vec<(KnifeId, VertexId)>,
     line: Vec<VertexId>,
     pencil: Vec<KnifeId>,
@@ -290,6 +326,7 @@ impl Scratch {
         &mut self,
         surface: &Surface,
         section: &Section,
+        map: &LocalMap,
         shared: &[(KnifeId, VertexId)],
         out: &mut Lines,
     ) -> Result<()> {
@@ -314,12 +351,19 @@ impl Scratch {
             }
             self.pencil.clear();
             each_common(a, b, |k| self.pencil.push(k));
-            self.line(surface, section, q, out)?;
+            self.line(surface, section, map, q, out)?;
         }
         Ok(())
     }
 
-    fn line(&mut self, surface: &Surface, section: &Section, q: KnifeId, out: &mut Lines) -> Result<()> {
+    fn line(
+        &mut self,
+        surface: &Surface,
+        section: &Section,
+        map: &LocalMap,
+        q: KnifeId,
+        out: &mut Lines,
+    ) -> Result<()> {
         let (axis, rising) = line_axis(surface, section.knife, q);
         let order = |a: &VertexId, b: &VertexId| {
             let order = surface.compare_coordinate(*a, *b, axis);
@@ -330,8 +374,8 @@ impl Scratch {
         let first = out.ends.len();
         let line = std::mem::take(&mut self.line);
         for pair in line.windows(2) {
-            let inside = section.inside_along(surface, &self.map, pair[0], q, false, pair[1])?;
-            if inside != section.inside_along(surface, &self.map, pair[1], q, true, pair[0])? {
+            let inside = section.inside_along(surface, map, pair[0], q, false, pair[1])?;
+            if inside != section.inside_along(surface, map, pair[1], q, true, pair[0])? {
                 return Err(Error::inconsistent(format!(
                     "the line of planes {} and {} is inside the solid at one end of a segment and outside at the other: \
                      the surface intersects itself",

@@ -15,6 +15,7 @@ pub mod surface;
 pub mod triangles;
 pub mod voids;
 
+use crate::base::parallel::Pool;
 use crate::base::{Culprit, DefectKind, Error, PlaneId, Result, Run, Status};
 use crate::complex::{Complex, Origin, shells};
 use crate::exact::{self, Plane};
@@ -67,7 +68,7 @@ pub fn cut(mesh: &Arc<TriMesh>, planes: &[Plane], _options: &CutOptions, run: &m
     run.stage("round", 0.4)?;
     let mut origins = surface::surface_origins(mesh, &knives, &points, &sub);
     let mut coords = Vec::with_capacity(origins.len());
-    coords.extend_from_slice(&mesh.vertices);
+    coords.par_extend(mesh.vertices.par_iter().with_min_len(1 << 13));
     round_from(mesh, planes, &origins, &mut coords);
     let surface_count = origins.len();
     let vertex_edges = OnceLock::new();
@@ -84,23 +85,26 @@ pub fn cut(mesh: &Arc<TriMesh>, planes: &[Plane], _options: &CutOptions, run: &m
     run.stage("lines", 0.5)?;
     let surface = ground.with(&origins, &coords);
     let contents = sections::plane_contents(&surface);
-    let (mut graphs, mut lines) = lines::sections_and_lines(&surface, &contents)?;
+    let pool = Pool::default();
+    let (pieces, mut lines) = lines::sections_and_lines(&surface, &contents, &pool)?;
     let inner = lines::number_inner(&surface, &mut lines, surface_count as u32);
     debug_assert_eq!(lines.check(), Ok(()));
     limit(surface_count + inner.names.len())?;
     let first_line_edge = numbering.first_chord_piece + sub.pieces.len() as u32;
     limit(first_line_edge as usize + lines.ends.len() + lines.points.items.len())?;
     run.stage("round inner", 0.6)?;
-    origins.extend(inner.names.iter().map(|&[p, q, r]| Origin::Planes(p, q, r)));
+    origins.reserve_exact(inner.names.len());
+    origins.par_extend(inner.names.par_iter().with_min_len(1 << 13).map(|&[p, q, r]| Origin::Planes(p, q, r)));
     round_from(mesh, planes, &origins, &mut coords);
     run.stage("faces", 0.65)?;
     let surface = ground.with(&origins[..surface_count], &coords[..surface_count]);
     let all = faces::AllVertices { surface: &surface, origins: &origins, coords: &coords };
     let has_voids = mesh.shells.iter().any(|s| !s.outer);
-    let section_faces = faces::section_faces(&all, &contents, &mut graphs, &lines, first_line_edge, has_voids)?;
+    let sections = faces::section_faces(&all, &contents, pieces, &lines, first_line_edge, &pool, has_voids)?;
+    drop((contents, pool));
     run.stage("assemble", 0.75)?;
     let whole = patches::whole_triangles(mesh, &sub.cut);
-    let (mut complex, first_face) = assemble::assemble(mesh, &surface, &whole, &lines, &inner, &section_faces);
+    let (mut complex, first_face) = assemble::assemble(mesh, &surface, &whole, &lines, &inner, &sections);
     limit(complex.corner_vertices.len())?;
     (complex.origins, complex.coords) = (origins, coords);
     run.stage("cells", 0.85)?;
@@ -110,7 +114,8 @@ pub fn cut(mesh: &Arc<TriMesh>, planes: &[Plane], _options: &CutOptions, run: &m
     let found = shells::find_shells(&complex, &joined, || lines.directions(&surface, first_line_edge))?;
     run.stage("voids", 0.95)?;
     let all = faces::AllVertices { surface: &surface, origins: &complex.origins, coords: &complex.coords };
-    let located = voids::Located { all: &all, sections: &graphs, faces: &section_faces, first_face: &first_face };
+    let graphs = sections.iter().flat_map(|s| &s.graphs).collect();
+    let located = voids::Located { all: &all, graphs, first_face: &first_face };
     let hosts = voids::hosts(&complex, &found, &located)?;
     shells::form_cells(&mut complex, &found, &hosts)?;
     bodies::assign_components(&mut complex)?;
@@ -147,9 +152,8 @@ fn limit(count: usize) -> Result<()> {
 
 /// Correctly rounded coordinates of the origins that have none yet.
 fn round_from(mesh: &TriMesh, planes: &[Plane], origins: &[Origin], coords: &mut Vec<[f64; 3]>) {
-    let start = coords.len();
-    coords.resize(origins.len(), [0.0; 3]);
-    coords[start..].par_iter_mut().with_min_len(256).zip(&origins[start..]).for_each(|(x, &origin)| {
-        *x = exact::round(&crate::complex::data::origin_point(mesh, planes, origin));
-    });
+    let rest = &origins[coords.len()..];
+    coords.reserve_exact(rest.len());
+    let rounded = |&origin: &Origin| exact::round(&crate::complex::data::origin_point(mesh, planes, origin));
+    coords.par_extend(rest.par_iter().with_min_len(256).map(rounded));
 }

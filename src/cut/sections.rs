@@ -56,25 +56,33 @@ pub struct Section {
 /// A map from vertex ids to places in `Section::vertices`, reused between sections.
 #[derive(Default)]
 pub struct LocalMap {
+    /// One more than the place, 0 for none: memory that no section touches is never brought in.
     place: Vec<u32>,
 }
 
 impl LocalMap {
+    /// Room for so many vertices, while the map is empty.
     pub fn prepare(&mut self, vertex_count: usize) {
         if self.place.len() < vertex_count {
-            self.place.resize(vertex_count, u32::MAX);
+            self.place = vec![0; vertex_count];
         }
     }
     #[inline(always)]
     pub fn get(&self, v: VertexId) -> Option<usize> {
-        let at = self.place[v.at()];
-        (at != u32::MAX).then_some(at as usize)
+        (self.place[v.at()] as usize).checked_sub(1)
     }
     pub fn clear(&mut self, section: &Section) {
         for v in &section.vertices {
-            self.place[v.at()] = u32::MAX;
+            self.place[v.at()] = 0;
         }
     }
+}
+
+/// What work on one section after the other needs, reused. The map is filled from `Section::gather_stars` on until it is cleared.
+#[derive(Default)]
+pub struct SectionScratch {
+    pub section: Section,
+    pub map: LocalMap,
 }
 
 impl Section {
@@ -105,9 +113,9 @@ impl Section {
         self.vertices.clear();
         for piece in &self.pieces {
             for v in piece.ends {
-                if map.place[v.at()] == u32::MAX {
-                    map.place[v.at()] = self.vertices.len() as u32;
+                if map.place[v.at()] == 0 {
                     self.vertices.push(v);
+                    map.place[v.at()] = self.vertices.len() as u32;
                 }
             }
         }
@@ -116,8 +124,7 @@ impl Section {
             .iter()
             .enumerate()
             .flat_map(|(i, p)| [(p.ends[0], 2 * i as u32), (p.ends[1], 2 * i as u32 + 1)]);
-        let star = Csr::from_pairs(self.vertices.len(), ends.map(|(v, h)| (map.place[v.at()] as usize, h)));
-        self.star = star;
+        self.star.fill(self.vertices.len(), ends.map(|(v, h)| (map.place[v.at()] as usize - 1, h)));
     }
 
     fn sort_stars(&mut self, surface: &Surface) {
@@ -316,18 +323,24 @@ pub struct PlaneContents {
 pub fn plane_contents(surface: &Surface) -> PlaneContents {
     let count = surface.knives.len();
     let chords = &surface.sub.chord_knives;
-    let all_chords =
-        (0..chords.len()).flat_map(|c| chords.row(c).iter().map(move |k| (k.knife.at(), (c as u32, k.flip))));
-    let on = &surface.classified.vertex_knives;
-    let all_vertices = (0..on.len()).flat_map(|v| on.row(v).iter().map(move |k| (k.at(), VertexId::of(v))));
+    let edges = &surface.classified.edges_on;
     PlaneContents {
-        chords: Csr::from_pairs(count, all_chords),
-        edges: Csr::from_pairs(count, surface.classified.edges_on.iter().map(|&(e, k)| (k.at(), e))),
-        vertices: Csr::from_pairs(count, all_vertices),
+        chords: Csr::from_positions(count, chords.len(), |range| {
+            range.flat_map(|c| chords.row(c).iter().map(move |k| (k.knife.at(), (c as u32, k.flip))))
+        }),
+        edges: Csr::from_positions(count, edges.len(), |range| edges[range].iter().map(|&(e, k)| (k.at(), e))),
+        vertices: vertices_on(count, &surface.classified.vertex_knives),
     }
 }
 
-/// The surface's pieces in one plane.
+/// Mesh vertices on each of `count` knives.
+pub fn vertices_on(count: usize, vertex_knives: &Csr<KnifeId>) -> Csr<VertexId> {
+    Csr::from_positions(count, vertex_knives.len(), |range| {
+        range.flat_map(|v| vertex_knives.row(v).iter().map(move |k| (k.at(), VertexId::of(v))))
+    })
+}
+
+/// Adds the surface's pieces in one plane.
 pub fn surface_pieces(surface: &Surface, contents: &PlaneContents, knife: KnifeId, pieces: &mut Vec<Piece>) {
     let sub = surface.sub;
     for &(chord, flip) in contents.chords.row(knife) {

@@ -25,7 +25,7 @@ pub struct Ground<'a> {
     pub sub: &'a Subdivision,
     pub numbering: Numbering,
     pub input_planes: &'a [exact::Plane],
-    /// Mesh edges at each mesh vertex; made when a plane first touches a vertex without crossing the surface there.
+    /// Mesh edges at each mesh vertex on a knife; made when a plane first touches a vertex without crossing the surface there.
     pub vertex_edges: &'a OnceLock<Csr<EdgeId>>,
 }
 
@@ -55,9 +55,11 @@ impl<'a> std::ops::Deref for Surface<'a> {
 }
 
 impl Surface<'_> {
+    /// The mesh edges at a mesh vertex that is on some knife.
     pub fn edges_of_vertex(&self, v: VertexId) -> &[EdgeId] {
+        // On one thread: while it waited for others it might take up a task that comes here again.
         let all = self.vertex_edges.get_or_init(|| {
-            let ends = self.mesh.edges.iter().enumerate().flat_map(|(e, ends)| ends.map(|v| (v.at(), EdgeId::of(e))));
+            let ends = self.classified.edges_at.iter().flat_map(|&e| self.mesh.edges[e.at()].map(|v| (v.at(), e)));
             Csr::from_pairs(self.mesh.vertices.len(), ends)
         });
         all.row(v)

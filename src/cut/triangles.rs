@@ -18,7 +18,6 @@ use crate::base::parallel::{concat, map_ranges, offsets, write_parts};
 use crate::base::{Csr, EdgeId, PlaneId, TriangleId, VertexId};
 use crate::exact::{self, Sign, counters};
 use crate::mesh::TriMesh;
-use rayon::prelude::*;
 use std::cmp::Ordering;
 
 /// A knife on a chord; `flip` when its positive side is on the right of the chord.
@@ -102,9 +101,16 @@ fn join(cut: Vec<TriangleId>, mut blocks: Vec<Subdivision>, numbering: Numbering
     let edge = |i: usize, e: EdgeId| {
         if e.0 >= numbering.first_chord_piece { EdgeId(e.0 + pieces[i] as u32) } else { e }
     };
-    blocks.par_iter_mut().enumerate().with_max_len(1).for_each(|(i, block)| {
-        block.pieces.iter_mut().for_each(|piece| *piece = piece.map(|v| vertex(i, v)));
-        block.faces.items.iter_mut().for_each(|(v, e)| (*v, *e) = (vertex(i, *v), edge(i, *e)));
+    // Moved up on the way, not before.
+    let lengths: Vec<usize> = blocks.iter().map(|b| b.pieces.len()).collect();
+    let all_pieces = write_parts(&lengths, |i, out| {
+        out.extend(blocks[i].pieces.iter().map(|piece| piece.map(|v| vertex(i, v))));
+    });
+    let face_offsets = Csr::concat_offsets(&blocks.iter().map(|b| &b.faces).collect::<Vec<_>>());
+    let corners: Vec<Vec<(VertexId, EdgeId)>> = blocks.iter_mut().map(|b| std::mem::take(&mut b.faces.items)).collect();
+    let lengths: Vec<usize> = corners.iter().map(Vec::len).collect();
+    let corners = write_parts(&lengths, |i, out| {
+        out.extend(corners[i].iter().map(|&(v, e)| (vertex(i, v), edge(i, e))));
     });
     // A block's own list begins with 0, and ends with what the next one begins with.
     let lengths: Vec<usize> = blocks.iter().map(|b| b.chord_pieces.len() - 1).chain([1]).collect();
@@ -123,12 +129,12 @@ fn join(cut: Vec<TriangleId>, mut blocks: Vec<Subdivision>, numbering: Numbering
         chord_triangle: concat(all(&mut blocks, |b| &mut b.chord_triangle)),
         chord_knives: Csr::concat(all(&mut blocks, |b| &mut b.chord_knives)),
         chord_pieces,
-        pieces: concat(all(&mut blocks, |b| &mut b.pieces)),
+        pieces: all_pieces,
         point_triangle: concat(all(&mut blocks, |b| &mut b.point_triangle)),
         point_knives: Csr::concat(all(&mut blocks, |b| &mut b.point_knives)),
         point_pair: concat(all(&mut blocks, |b| &mut b.point_pair)),
         face_triangle: concat(all(&mut blocks, |b| &mut b.face_triangle)),
-        faces: Csr::concat(all(&mut blocks, |b| &mut b.faces)),
+        faces: Csr { offsets: face_offsets, items: corners },
     }
 }
 

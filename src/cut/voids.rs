@@ -9,7 +9,7 @@
 //! Voids are few: this stage works in rationals.
 
 use super::classify::{KnifeId, Knives};
-use super::faces::{AllVertices, SectionFaces, Seen};
+use super::faces::{AllVertices, Seen};
 use super::sections::{Section, projection_axes};
 use crate::base::{Error, FaceId, Result, ShellId, TriangleId, VertexId};
 use crate::complex::locate::{RayStart, Strips};
@@ -23,8 +23,8 @@ use std::cmp::Ordering;
 /// What the search for voids' cells reads of the cut so far.
 pub struct Located<'a> {
     pub all: &'a AllVertices<'a>,
-    pub sections: &'a [Section],
-    pub faces: &'a [SectionFaces],
+    /// Of each section, its graph and the face on the left of each half-edge.
+    pub graphs: Vec<&'a (Section, Vec<u32>)>,
     /// The first face id of each section.
     pub first_face: &'a [u32],
 }
@@ -225,7 +225,7 @@ impl RayStart for FromRational<'_> {
 
 /// The face of a plane's section that holds a point which is on no other plane and inside the solid.
 fn locate_in_section(located: &Located, k: KnifeId, x: &[Rational; 3]) -> Result<FaceId> {
-    let section = &located.sections[k.at()];
+    let (section, face_of_half_edge) = located.graphs[k.at()];
     let knives: &Knives = located.all.surface.knives;
     let axes = projection_axes(&knives.plane(k).n);
     let seen = Seen { all: located.all, axes };
@@ -237,7 +237,7 @@ fn locate_in_section(located: &Located, k: KnifeId, x: &[Rational; 3]) -> Result
         rounded: exact::round_rational(&x[axes.1]),
     };
     let hit = Strips::new(&pieces, &seen, 1).first_hit(&pieces, &seen, &start);
-    match hit.map(|h| located.faces[k.at()].face_of_half_edge[h as usize]) {
+    match hit.map(|h| face_of_half_edge[h as usize]) {
         Some(face) if face != u32::MAX => Ok(FaceId(located.first_face[k.at()] + face)),
         _ => Err(Error::inconsistent(format!("a void is outside the section of plane {}", knives.ids[k.at()].0))),
     }

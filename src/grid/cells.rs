@@ -86,19 +86,16 @@ impl Faces<'_> {
 /// Sorts the half-faces by touched box.
 pub fn by_box(lattice: &Lattice, pieces: &Pieces, squares: &Squares, touched: &Touched) -> Csr<HalfFace> {
     let walls = pieces.triangle.len();
-    let of_walls = pieces
-        .in_box
-        .iter()
-        .enumerate()
-        .map(|(f, &b)| (touched.rank(lattice.box_at(b)), HalfFace::new(FaceId::of(f), false)));
-    let of_squares = squares.sides.iter().enumerate().flat_map(move |(i, sides)| {
-        let face = FaceId::of(walls + i);
-        [false, true].into_iter().filter_map(move |front| {
-            let side = sides[front as usize];
-            (side < FULL_CELL).then(|| (side.at(), HalfFace::new(face, front)))
+    Csr::from_positions(touched.boxes.len(), walls + squares.sides.len(), |range| {
+        range.map(FaceId::of).flat_map(|face| {
+            let sides = match pieces.in_box.get(face.at()) {
+                Some(&b) => [Some(touched.rank(lattice.box_at(b))), None],
+                None => squares.sides[face.at() - walls].map(|side| (side < FULL_CELL).then(|| side.at())),
+            };
+            let half_face = move |(front, side): (usize, Option<usize>)| Some((side?, HalfFace::new(face, front == 1)));
+            sides.into_iter().enumerate().filter_map(half_face)
         })
-    });
-    Csr::from_pairs(touched.boxes.len(), of_walls.chain(of_squares))
+    })
 }
 
 const BOXES: usize = 4096;

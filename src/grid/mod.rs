@@ -29,9 +29,10 @@ pub mod to_complex;
 pub mod touched;
 pub mod voids;
 
-use crate::base::{Csr, Error, Result, Run, Status, VertexId};
+use crate::base::{Csr, Error, Result, Run, Status};
 use crate::cut::classify::KnifeId;
 use crate::cut::faces::AllVertices;
+use crate::cut::sections::vertices_on;
 use crate::cut::surface;
 use crate::cut::triangles::{Numbering, Subdivision};
 use crate::mesh::TriMesh;
@@ -81,10 +82,15 @@ pub fn cut_grid(mesh: &Arc<TriMesh>, lattice: Lattice, options: &GridOptions, ru
     run.stage("touched", 0.4)?;
     let slabs = AllSlabs { ground: &ground, pieces: &pieces };
     let mut touched = Touched::new(&lattice, slabs.each());
+    let (knife_count, edges_on) = (ground.knives.len(), &ground.classified.edges_on);
     let contents = squares::Contents {
-        chords: Csr::from_pairs(ground.knives.len(), pieces.chords.iter().map(|&(k, c)| (k.at(), c))),
-        edges: Csr::from_pairs(ground.knives.len(), ground.classified.edges_on.iter().map(|&(e, k)| (k.at(), e))),
-        vertices: vertices_on(&ground),
+        chords: Csr::from_positions(knife_count, pieces.chords.len(), |range| {
+            pieces.chords[range].iter().map(|&(k, c)| (k.at(), c))
+        }),
+        edges: Csr::from_positions(knife_count, edges_on.len(), |range| {
+            edges_on[range].iter().map(|&(e, k)| (k.at(), e))
+        }),
+        vertices: vertices_on(knife_count, &ground.classified.vertex_knives),
     };
     pieces.chords = Vec::new();
     run.stage("lines", 0.45)?;
@@ -160,13 +166,6 @@ fn limit(count: usize) -> Result<()> {
         return Ok(());
     }
     Err(Error::new(Status::TooLarge, format!("{count} elements are more than 32-bit ids can number")))
-}
-
-/// Mesh vertices on each grid plane.
-fn vertices_on(ground: &Ground) -> Csr<VertexId> {
-    let on = &ground.classified.vertex_knives;
-    let pairs = (0..on.len()).flat_map(|v| on.row(v).iter().map(move |k| (k.at(), VertexId::of(v))));
-    Csr::from_pairs(ground.knives.len(), pairs)
 }
 
 /// The points inside triangles as the stages of `cut` know them.

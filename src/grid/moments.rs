@@ -413,8 +413,7 @@ fn exact_walls(g: &GridCells, faces: impl Iterator<Item = FaceId>) -> (WallValue
 
 /// The walls of each cell, rising: with `wall_triangle` and the mesh's tags, the input behind each cell. Cost: linear.
 pub fn cell_walls(g: &GridCells) -> Csr<FaceId> {
-    let pairs = g.wall_cell.iter().enumerate().map(|(f, c)| (c.at(), FaceId::of(f)));
-    Csr::from_pairs(g.cell_count(), pairs)
+    Csr::from_positions(g.cell_count(), g.wall_cell.len(), |range| range.map(|f| (g.wall_cell[f].at(), FaceId::of(f))))
 }
 
 /// The box of each cell. Cost: linear.

@@ -16,7 +16,7 @@ use super::pieces::Chord;
 use super::touched::{Touched, others};
 use crate::base::{CellId, Csr, EdgeId, NodeId, Result, VertexId};
 use crate::cut::classify::KnifeId;
-use crate::cut::faces::{AllVertices, faces_of};
+use crate::cut::faces::{AllVertices, SectionFaces, faces_of};
 use crate::cut::sections::{Carrier, LocalMap, Piece, Section, edge_pieces};
 use crate::exact::{Sign, sort_cyclic};
 use rayon::prelude::*;
@@ -104,6 +104,7 @@ struct Buffers {
     order: Vec<(u8, u32)>,
     row: Vec<u32>,
     vertices: Vec<VertexId>,
+    faces: SectionFaces,
 }
 
 impl Scene<'_> {
@@ -133,7 +134,7 @@ impl Scene<'_> {
     }
 
     fn plane(&self, p: &PlaneOf, buffers: &mut Buffers) -> Result<Squares> {
-        let Buffers { map, section, boxes, order, row, vertices } = buffers;
+        let Buffers { map, section, boxes, order, row, vertices, faces } = buffers;
         let ground = self.slabs.ground;
         section.knife = p.knife;
         section.pieces.clear();
@@ -166,20 +167,20 @@ impl Scene<'_> {
         vertices.clear();
         let on_plane = self.contents.vertices.row(p.knife);
         vertices.extend(on_plane.iter().filter(|&&v| ground.in_block(&self.slabs.of(v))));
-        let faces = faces_of(self.all, vertices, section, map, false);
+        faces.clear();
+        let outcome = faces_of(self.all, vertices, section, map, false, faces);
         map.clear(section);
-        let faces = faces?;
-        for loops in faces.faces.rows() {
-            let outer = faces.loops.row(loops[0] as usize);
+        section.vertices.clear();
+        outcome?;
+        for &first in &faces.faces[..faces.faces.len() - 1] {
+            let outer = faces.loops.row(first as usize);
             let node = self.square_of(p, outer.iter().map(|c| c.0));
             out.node.push(node);
             out.sides.push(self.sides(p, node));
-            for &l in loops {
-                out.loops.items.extend(faces.loops.row(l as usize).iter().map(|c| c.0));
-                out.loops.end_row();
-            }
-            out.face_loops.push(out.loops.len() as u32);
         }
+        out.loops.items.extend(faces.loops.items.iter().map(|c| c.0));
+        out.loops.offsets.clone_from(&faces.loops.offsets);
+        out.face_loops.clone_from(&faces.faces);
         Ok(out)
     }
 

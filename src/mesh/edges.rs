@@ -10,7 +10,8 @@
 //! Cost: linear, plus the sort of buckets (a vertex with a million sides costs a million times its logarithm).
 
 use super::EdgeUse;
-use crate::base::parallel::{concat, offsets};
+use crate::base::csr::Walk;
+use crate::base::parallel::{self, each_part, ranges, recast, write_parts3};
 use crate::base::{Csr, EdgeId, TriangleId, VertexId};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -31,77 +32,97 @@ fn pack(hi: u32, triangle: usize, forward: bool, side: usize) -> u64 {
     (hi as u64) << 33 | (triangle as u64) << 3 | (forward as u64) << 2 | side as u64
 }
 
-/// The edges from a range of lower vertices: higher vertices, and uses.
-struct Part {
-    edges: Vec<[VertexId; 2]>,
-    uses: Csr<EdgeUse>,
+/// The sides of triangles by lower vertex, packed.
+struct Sides<'a>(&'a [[VertexId; 3]]);
+
+// SAFETY: only reads what is borrowed.
+unsafe impl Walk<u64> for Sides<'_> {
+    fn positions(&self) -> usize {
+        self.0.len()
+    }
+    #[inline]
+    fn walk(&self, triangles: Range<usize>, mut visit: impl FnMut(usize, u64)) {
+        for (t, corners) in triangles.clone().zip(&self.0[triangles]) {
+            for side in 0..3 {
+                let (from, to) = (corners[side].0, corners[(side + 1) % 3].0);
+                if from != to {
+                    visit(from.min(to) as usize, pack(from.max(to), t, from < to, side));
+                }
+            }
+        }
+    }
 }
 
-/// Finds the edges of `triangles`, whose corners are below `vertex_count`. Each thread of the current rayon pool takes a range of
-/// lower vertices, and walks all triangles to find the sides in it.
+/// Finds the edges of `triangles`, whose corners are below `vertex_count`. Shared out among the threads of the current rayon pool.
 pub fn edge_table(vertex_count: usize, triangles: &[[VertexId; 3]]) -> EdgeTable {
-    let threads = if triangles.len() < 1 << 14 { 1 } else { rayon::current_num_threads() };
-    let bound = |i: usize| (vertex_count * i / threads) as u32;
-    let part = |i: usize| edges_from(bound(i)..bound(i + 1), triangles);
-    let parts: Vec<Part> =
-        if threads == 1 { vec![part(0)] } else { (0..threads).into_par_iter().with_max_len(1).map(part).collect() };
-    let first = offsets(parts.iter().map(|p| p.edges.len()));
-    // Every side has one use, so every place is written once, by whichever thread has the use.
-    let sides: Vec<[AtomicU32; 3]> = (0..triangles.len())
+    let mut sides = Csr::from_walk(vertex_count, &Sides(triangles));
+    // Ranges of lower vertices with about as many sides each.
+    let total = sides.items.len();
+    let bounds: Vec<usize> = ranges(total, LEAST)
+        .iter()
+        .map(|range| sides.offsets.partition_point(|&o| (o as usize) < range.start))
+        .chain([vertex_count])
+        .collect();
+    let mut parts = Vec::with_capacity(bounds.len());
+    let (offsets, mut rest) = (&sides.offsets[..], &mut sides.items[..]);
+    for w in bounds.windows(2) {
+        let (part, behind) = rest.split_at_mut((offsets[w[1]] - offsets[w[0]]) as usize);
+        parts.push((w[0]..w[1], part));
+        rest = behind;
+    }
+    let edge_counts = each_part(parts, |_, (vertices, part)| {
+        let (mut start, mut count) = (0, 0);
+        for row in offsets[vertices.start..=vertices.end].windows(2) {
+            let end = start + (row[1] - row[0]) as usize;
+            let bucket = &mut part[start..end];
+            sort_bucket(bucket);
+            count += !bucket.is_empty() as usize + bucket.windows(2).filter(|w| w[0] >> 33 != w[1] >> 33).count();
+            start = end;
+        }
+        count
+    });
+    let first = parallel::offsets(edge_counts.iter().copied());
+    // Every side of two vertices has one use, so every place is written once, by whichever thread has the use.
+    let places: Vec<[AtomicU32; 3]> = (0..triangles.len())
         .into_par_iter()
-        .with_min_len(1 << 14)
+        .with_min_len(LEAST)
         .map(|_| std::array::from_fn(|_| AtomicU32::new(EdgeId::NONE.0)))
         .collect();
-    parts.par_iter().zip(&first).for_each(|(part, &first)| {
-        for e in 0..part.edges.len() {
-            for u in part.uses.row(e) {
-                sides[u.triangle.at()][u.side()].store((first + e) as u32, Ordering::Relaxed);
+    let use_counts: Vec<usize> = bounds.windows(2).map(|w| (offsets[w[1]] - offsets[w[0]]) as usize).collect();
+    let items = &sides.items;
+    let mut row_counts = edge_counts.clone();
+    // The end of the last row.
+    row_counts[edge_counts.len() - 1] += 1;
+    let (edges, rows, uses) = write_parts3([&edge_counts, &row_counts, &use_counts], |i, edges, rows, uses| {
+        // One more than the edge at hand.
+        let mut next = first[i] as u32;
+        for lo in bounds[i]..bounds[i + 1] {
+            let mut last = lo as u32;
+            for at in offsets[lo]..offsets[lo + 1] {
+                let packed = items[at as usize];
+                let hi = (packed >> 33) as u32;
+                if hi != last {
+                    edges.push([VertexId::of(lo), VertexId(hi)]);
+                    rows.push(at);
+                    next += 1;
+                    last = hi;
+                }
+                let (triangle, code) = (TriangleId((packed >> 3) as u32 & 0x3fff_ffff), packed as u8 & 7);
+                uses.push(EdgeUse { triangle, code });
+                places[triangle.at()][(code & 3) as usize].store(next - 1, Ordering::Relaxed);
             }
+        }
+        if i + 1 == edge_counts.len() {
+            rows.push(total as u32);
         }
     });
-    let triangle_edges = sides.into_iter().map(|side| side.map(|e| EdgeId(e.into_inner()))).collect();
-    let (edges, uses): (Vec<_>, Vec<_>) = parts.into_iter().map(|p| (p.edges, p.uses)).unzip();
-    EdgeTable { edges: concat(edges), triangle_edges, edge_uses: Csr::concat(uses) }
+    // SAFETY: an id is a transparent word, and so is an atomic one.
+    let triangle_edges = unsafe { recast(places) };
+    EdgeTable { edges, triangle_edges, edge_uses: Csr { offsets: rows, items: uses } }
 }
 
-fn edges_from(range: Range<u32>, triangles: &[[VertexId; 3]]) -> Part {
-    // Behind the range for what is before it.
-    let bucket = |v: u32| v.wrapping_sub(range.start) as usize;
-    let mut ends = vec![0u32; range.len() + 1];
-    for &[a, b, c] in triangles {
-        for v in [a.0.min(b.0), b.0.min(c.0), c.0.min(a.0)] {
-            if let Some(n) = ends.get_mut(bucket(v).wrapping_add(1)) {
-                *n += (bucket(v) < range.len()) as u32;
-            }
-        }
-    }
-    for v in 0..range.len() {
-        ends[v + 1] += ends[v];
-    }
-    let count = ends[range.len()] as usize;
-    let mut sides = vec![0u64; count];
-    for (t, &corners) in triangles.iter().enumerate() {
-        for side in 0..3 {
-            let (from, to) = (corners[side].0, corners[(side + 1) % 3].0);
-            let at = bucket(from.min(to));
-            if at < range.len() {
-                let slot = &mut ends[at];
-                sides[*slot as usize] = pack(from.max(to), t, from < to, side);
-                *slot += 1;
-            }
-        }
-    }
-    // Filling has moved each offset to the end of its bucket, which is the start of the next.
-    let mut part = Part { edges: Vec::with_capacity(count / 2 + 1), uses: Csr::with_capacity(count / 2 + 1, count) };
-    let mut start = 0;
-    for (lo, &end) in range.clone().zip(&ends) {
-        let bucket = &mut sides[start..end as usize];
-        start = end as usize;
-        sort_bucket(bucket);
-        emit_bucket(lo, bucket, &mut part);
-    }
-    part
-}
+/// Sides in one task at least.
+const LEAST: usize = 1 << 14;
 
 /// Insertion sort for the usual handful, which arrives nearly sorted; the library's sort beyond.
 #[inline]
@@ -118,29 +139,6 @@ fn sort_bucket(bucket: &mut [u64]) {
             j -= 1;
         }
         bucket[j] = x;
-    }
-}
-
-#[inline]
-fn emit_bucket(lo: u32, bucket: &[u64], part: &mut Part) {
-    let mut last = lo;
-    for &packed in bucket {
-        let hi = (packed >> 33) as u32;
-        if hi == lo {
-            continue;
-        }
-        if hi != last {
-            if last != lo {
-                part.uses.end_row();
-            }
-            last = hi;
-            part.edges.push([VertexId(lo), VertexId(hi)]);
-        }
-        let triangle = TriangleId((packed >> 3) as u32 & 0x3fff_ffff);
-        part.uses.items.push(EdgeUse { triangle, code: packed as u8 & 7 });
-    }
-    if last != lo {
-        part.uses.end_row();
     }
 }
 
