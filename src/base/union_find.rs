@@ -2,7 +2,7 @@
 //! outcome is independent of the order of the unions. Cost: amortised O(log n) per operation, nearly constant in
 //! practice (linking by index in place of rank costs no memory).
 
-use super::parallel::{concat, map_ranges};
+use super::parallel::{concat, map_ranges, offsets};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU32, Ordering};
 
@@ -157,15 +157,19 @@ impl SharedUnionFind {
         let word_of =
             |w: usize| (64 * w..n.min(64 * w + 64)).fold(0u64, |bits, i| bits | (is_root(i) as u64) << (i % 64));
         let bits: Vec<u64> = (0..words).into_par_iter().with_min_len(LEAST / 64).map(word_of).collect();
-        let mut sum = 0;
-        let before: Vec<u32> = bits.iter().map(|b| std::mem::replace(&mut sum, sum + b.count_ones())).collect();
+        let before = offsets(bits.iter().map(|b| b.count_ones() as usize));
         let roots = concat(map_ranges(words, LEAST / 64, |range| {
-            let places = |w: usize| (0..64).filter(move |b| bits[w] >> b & 1 != 0).map(move |b| (64 * w + b) as u32);
-            let mut roots = Vec::with_capacity(range.clone().map(|w| bits[w].count_ones() as usize).sum());
-            range.filter(|&w| bits[w] != 0).for_each(|w| roots.extend(places(w)));
+            let mut roots = Vec::with_capacity(before[range.end] - before[range.start]);
+            for w in range {
+                let mut rest = bits[w];
+                while rest != 0 {
+                    roots.push((64 * w) as u32 + rest.trailing_zeros());
+                    rest &= rest - 1;
+                }
+            }
             roots
         }));
-        let place = |i: usize| before[i / 64] + (bits[i / 64] & ((1 << (i % 64)) - 1)).count_ones();
+        let place = |i: usize| before[i / 64] as u32 + (bits[i / 64] & ((1 << (i % 64)) - 1)).count_ones();
         let label_of = |i: usize| if counts(i) { place(self.find(i)) } else { u32::MAX };
         let of = (0..n).into_par_iter().with_min_len(LEAST).map(label_of).collect();
         (of, roots)
