@@ -105,7 +105,9 @@ pub fn write_parts3<A: Copy + Send, B: Copy + Send, C: Copy + Send>(
     let writers = a.writers(lengths[0]).into_iter().zip(b.writers(lengths[1])).zip(c.writers(lengths[2])).collect();
     each_part(writers, |i, ((mut a, mut b), mut c)| {
         write(i, &mut a, &mut b, &mut c);
-        (a.end(i), b.end(i), c.end(i));
+        a.end(i);
+        b.end(i);
+        c.end(i);
     });
     // SAFETY: each part was found to be filled to its end; there are as many of each.
     unsafe { (a.done(lengths[0]), b.done(lengths[1]), c.done(lengths[2])) }
