@@ -4,6 +4,7 @@
 //! Every predicate equals what exact rational arithmetic gives, for any finite input. Read [`ring`] first (one
 //! formula, many number types), then [`tiers`] and [`predicates`].
 
+pub mod barycentric;
 pub mod big;
 pub mod bounded;
 pub mod counters;
