@@ -134,14 +134,10 @@ fn eliminate(mut m: Vec<Vec<Rational>>, columns: usize) -> (usize, Option<Vec<Ra
         m.swap(row, p);
         let inverse = m[row][c].clone().recip();
         m[row].iter_mut().for_each(|x| *x *= &inverse);
-        for r in 0..m.len() {
-            if r != row && m[r][c] != 0 {
-                let k = m[r][c].clone();
-                for j in 0..columns {
-                    let t = Rational::from(&m[row][j] * &k);
-                    m[r][j] -= t;
-                }
-            }
+        let pivot = m[row].clone();
+        for (_, other) in m.iter_mut().enumerate().filter(|(r, _)| *r != row) {
+            let k = other[c].clone();
+            other.iter_mut().zip(&pivot).for_each(|(x, p)| *x -= Rational::from(p * &k));
         }
         pivots.push(c);
         row += 1;

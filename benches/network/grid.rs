@@ -62,5 +62,10 @@ pub fn main(arguments: &[String]) {
     for (name, seconds) in &best {
         println!("{name:>12} {:8.1} ms", seconds * 1e3);
     }
-    println!("{:>12} {:8.1} ms, {threads} threads; peak {:.0} MB, before it {before:.0} MB", "all", least * 1e3, peak());
+    println!(
+        "{:>12} {:8.1} ms, {threads} threads; peak {:.0} MB, before it {before:.0} MB",
+        "all",
+        least * 1e3,
+        peak()
+    );
 }
