@@ -2,7 +2,7 @@
 //! fault for every 4 KiB (DESIGN §12, "Memory"). So blocks of [`LARGE`] bytes or more are kept when freed and handed out again,
 //! up to [`KEPT`] bytes for the process, as long as somebody says that calls will follow ([`Keeper`]: every context is one);
 //! the last one to leave gives all of them back. Blocks of megabytes are mapped where huge pages fit, and ask for them:
-//! one page fault then brings 2 MiB.
+//! one page fault then brings 2 MiB. Blocks too large to be kept grow by moving their pages, not what is in them, and shrink in place.
 //!
 //! Smaller requests, and all of them on systems other than Linux, go to the system's allocator.
 //!
@@ -109,9 +109,14 @@ fn take(class: usize, bytes: usize) -> Option<*mut u8> {
     Some(block)
 }
 
+/// Whether blocks of a size are kept as long as there is room: then growing leaves one for the next call, which will grow likewise.
+fn worth_keeping(size: usize) -> bool {
+    size <= KEPT && KEEPERS.load(Ordering::Relaxed) != 0
+}
+
 /// Whether the block is kept.
 fn keep(block: *mut u8, class: usize, bytes: usize) -> bool {
-    if KEEPERS.load(Ordering::Relaxed) == 0 {
+    if !worth_keeping(bytes) {
         return false;
     }
     let Ok(mut store) = STORE.try_lock() else { return false };
@@ -166,14 +171,54 @@ fn map(bytes: usize, size: usize) -> *mut u8 {
         if slack > before {
             unmap(start.wrapping_add(whole), slack - before);
         }
-        // No huge page for the rest: it might hold a hundred times what is used of it.
-        #[cfg(target_os = "linux")]
-        // SAFETY: advice on our own mapping; whether it is taken does not matter.
-        unsafe {
-            libc::madvise(start.cast(), size & !(HUGE - 1), libc::MADV_HUGEPAGE);
-        }
+        ask_for_huge_pages(start, size);
     }
     start.wrapping_add(MAPPED.fetch_add(STAGGER, Ordering::Relaxed) % PAGE)
+}
+
+/// Asks for huge pages as far as `size` fills them: for the rest, one might hold a hundred times what is used of it.
+fn ask_for_huge_pages(start: *mut u8, size: usize) {
+    #[cfg(target_os = "linux")]
+    // SAFETY: advice on our own mapping; whether it is taken does not matter.
+    unsafe {
+        libc::madvise(start.cast(), size & !(HUGE - 1), libc::MADV_HUGEPAGE);
+    }
+}
+
+/// A block of megabytes, made larger or smaller without copying: its front keeps its pages. What is cut off goes back to the system; what grows
+/// moves to where huge pages fit as before. Null if there is no memory: the block is as it was.
+///
+/// # Safety
+/// `block` is one of ours for a request of `old` bytes, [`HUGE`] or more, and is not used any more if the result is not null.
+#[cfg(target_os = "linux")]
+unsafe fn resize(block: *mut u8, old: usize, size: usize) -> *mut u8 {
+    let (have, want) = (class(old).1, class(size).1);
+    let start = page_of(block);
+    if want <= have {
+        if want < have {
+            unmap(start.wrapping_add(want + PAGE), have - want);
+        }
+        return block;
+    }
+    let moved = page_of(map(want, size));
+    if moved.is_null() {
+        return moved;
+    }
+    let flags = libc::MREMAP_MAYMOVE | libc::MREMAP_FIXED;
+    // SAFETY: both are whole mappings of ours; the new one, which nobody refers to yet, is replaced by the old one's pages.
+    let done = unsafe { libc::mremap(start.cast(), have + PAGE, have + PAGE, flags, moved.cast::<libc::c_void>()) };
+    if done == libc::MAP_FAILED {
+        unmap(moved, want + PAGE);
+        return std::ptr::null_mut();
+    }
+    ask_for_huge_pages(moved, size);
+    moved.wrapping_add(block as usize % PAGE)
+}
+
+/// Elsewhere there are no blocks.
+#[cfg(not(target_os = "linux"))]
+unsafe fn resize(_: *mut u8, _: usize, _: usize) -> *mut u8 {
+    std::ptr::null_mut()
 }
 
 fn unmap(start: *mut u8, bytes: usize) {
@@ -221,6 +266,9 @@ unsafe impl GlobalAlloc for Blocks {
         match (is_block(&layout), is_block(&new)) {
             (false, false) => unsafe { System.realloc(block, layout, size) },
             (true, true) if class(size).0 == class(layout.size()).0 => block,
+            (true, true) if layout.size() >= HUGE && !worth_keeping(layout.size()) => unsafe {
+                resize(block, layout.size(), size)
+            },
             _ => unsafe {
                 let moved = self.alloc(new);
                 if !moved.is_null() {
@@ -244,6 +292,22 @@ mod tests {
             assert!(bytes >= size && bytes - size <= size / 8 && bytes % PAGE == 0, "{size}");
             assert_eq!(bytes, bytes_of(at));
             assert_eq!(class(bytes), (at, bytes));
+        }
+    }
+
+    #[test]
+    fn what_a_block_holds_stays_when_it_grows_or_shrinks() {
+        let mark = |i: usize| (i / 4096) as u8 ^ 0x5A;
+        let mut bytes: Vec<u8> = Vec::new();
+        let mut length = 0;
+        for size in [KEPT + 1, 2 * KEPT + 77, 5 * KEPT / 2, KEPT + 3 * HUGE, KEPT + 5, 2 * KEPT] {
+            bytes.truncate(size);
+            bytes.shrink_to(size);
+            bytes.reserve_exact(size - bytes.len());
+            assert!((0..length.min(size)).step_by(4096).all(|i| bytes[i] == mark(i)), "size {size}");
+            bytes.extend((bytes.len()..size).map(mark));
+            assert!((bytes.as_ptr() as usize).is_multiple_of(LINE));
+            length = size;
         }
     }
 

@@ -127,19 +127,19 @@ pub fn section_faces(
             }
             map.prepare(all.origins.len());
             section.build_stars(all.surface, map);
-            let faces = faces_of(all, contents.vertices.row(section.knife), section, map, keep_half_edges);
+            let bare = contents.vertices.row(section.knife).iter().copied().filter(|&v| map.get(v).is_none());
+            let faces = faces_of(all, bare, section, keep_half_edges);
             map.clear(section);
             faces
         })
         .collect()
 }
 
-/// The faces of one section with its lines. `vertices`: the mesh vertices on the plane that may touch a face.
+/// The faces of one section with its lines. `bare`: the mesh vertices on the plane that no piece ends at, which may touch a face.
 pub fn faces_of(
     all: &AllVertices,
-    vertices: &[VertexId],
+    bare: impl Iterator<Item = VertexId>,
     section: &Section,
-    map: &LocalMap,
     keep_half_edges: bool,
 ) -> Result<SectionFaces> {
     let surface = all.surface;
@@ -151,11 +151,7 @@ pub fn faces_of(
             section.target(h).0
         ))
     })?;
-    let touching: Vec<VertexId> = vertices
-        .iter()
-        .copied()
-        .filter(|&v| map.get(v).is_none() && touching_is_inside(surface, v, section.knife))
-        .collect();
+    let touching: Vec<VertexId> = bare.filter(|&v| touching_is_inside(surface, v, section.knife)).collect();
     let axes = projection_axes(&surface.knives.plane(section.knife).n);
     let seen = Seen { all, axes };
     let is_line = |h: u32| matches!(section.pieces[h as usize / 2].carrier, Carrier::Line { .. });

@@ -24,6 +24,7 @@ pub mod points;
 pub mod regions;
 pub mod second_moments;
 pub mod settle;
+pub mod square_stars;
 pub mod squares;
 pub mod to_complex;
 pub mod touched;
