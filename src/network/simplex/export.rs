@@ -5,7 +5,7 @@
 
 use super::arrangement::{EVERYWHERE, NOWHERE};
 use super::data::*;
-use super::work::{FACETS, NONE, SUMMIT, Work};
+use super::work::{FACETS, NONE, SUMMIT, State, Work};
 use crate::exact::Sign;
 
 /// Numbers of working elements in the result.
@@ -46,19 +46,6 @@ impl SimplexComplex {
     }
 }
 
-/// The functions among planes, padded.
-fn encoding(planes: &[u32; 4]) -> [LocalFunction; 4] {
-    let mut out = [LocalFunction::NONE; 4];
-    let mut n = 0;
-    for &p in planes {
-        if p != NONE && p >= FACETS {
-            out[n] = LocalFunction(p - FACETS);
-            n += 1;
-        }
-    }
-    out
-}
-
 pub(super) fn arrangement(work: &mut Work, maps: &mut Maps, dim: usize, out: &mut SimplexComplex) {
     let n = work.values.len();
     out.clear(Kind::Arrangement, dim, n);
@@ -72,10 +59,10 @@ pub(super) fn arrangement(work: &mut Work, maps: &mut Maps, dim: usize, out: &mu
         }
         maps.vertices.push(out.vertex_carrier.len() as u32);
         out.vertex_carrier.push(Carrier(vertex.carrier));
-        let encoded = encoding(&vertex.planes);
+        let encoded = vertex.functions().map(LocalFunction);
         out.vertex_encoding.push(encoded);
-        if plain && !vertex.more {
-            push_sorted(&mut out.vertex_functions.items, encoded);
+        if plain && vertex.state == State::Plain {
+            out.vertex_functions.items.extend(encoded.into_iter().take_while(|f| f.is_some()));
         } else {
             maps.set.clear();
             for p in vertex.planes {
@@ -198,22 +185,6 @@ fn planes(work: &Work, maps: &mut Maps, dim: usize, out: &mut SimplexComplex) ->
     false
 }
 
-/// Adds up to four functions, rising.
-fn push_sorted(to: &mut Vec<LocalFunction>, mut set: [LocalFunction; 4]) {
-    // NONE is the highest number.
-    let mut order = |i: usize, j: usize| {
-        if set[j] < set[i] {
-            set.swap(i, j);
-        }
-    };
-    order(0, 1);
-    order(2, 3);
-    order(0, 2);
-    order(1, 3);
-    order(1, 2);
-    to.extend(set.into_iter().take_while(|f| f.is_some()));
-}
-
 /// Visits the planes at a vertex beyond its own.
 fn more(work: &Work, v: usize, mut visit: impl FnMut(u32)) {
     let mut i = work.more_head[v];
@@ -313,7 +284,7 @@ pub(super) fn interface(work: &mut Work, maps: &mut Maps, dim: usize, out: &mut 
     maps.order.resize(dim + 1, NONE);
     for (v, vertex) in work.vertices.iter().enumerate() {
         let c = vertex.carrier;
-        if vertex.dead || v as u32 == SUMMIT || dim == 2 && c >> 3 != 0 {
+        if vertex.state == State::Dead || v as u32 == SUMMIT || dim == 2 && c >> 3 != 0 {
             continue;
         }
         if c.is_power_of_two() {
@@ -328,11 +299,11 @@ pub(super) fn interface(work: &mut Work, maps: &mut Maps, dim: usize, out: &mut 
     for &v in &maps.order {
         let vertex = &work.vertices[v as usize];
         out.vertex_carrier.push(Carrier(vertex.carrier));
-        let encoded = encoding(&vertex.planes);
+        let encoded = vertex.functions().map(LocalFunction);
         out.vertex_encoding.push(encoded);
         let start = out.vertex_functions.items.len();
-        push_sorted(&mut out.vertex_functions.items, encoded);
-        if vertex.more {
+        out.vertex_functions.items.extend(encoded.into_iter().take_while(|f| f.is_some()));
+        if vertex.state == State::More {
             more(work, v as usize, |p| out.vertex_functions.items.push(LocalFunction(p - FACETS)));
             out.vertex_functions.items[start..].sort_unstable();
         }
@@ -430,7 +401,7 @@ fn face_materials(work: &Work, maps: &mut Maps, out: &mut SimplexComplex, at: u3
     let corners = || work.corners[at as usize..(at + len) as usize].iter().map(|c| c[0] as usize);
     let known = |v: &usize| maps.vertices[*v] != NONE;
     let items = &mut out.plane_functions.items;
-    if corners().filter(known).any(|v| !work.vertices[v].more) {
+    if corners().filter(known).any(|v| work.vertices[v].state == State::Plain) {
         if low >= FACETS {
             items.push(LocalFunction(low - FACETS));
         }

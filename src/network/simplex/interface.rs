@@ -19,7 +19,7 @@
 
 use super::data::{Scratch, SimplexComplex};
 use super::export;
-use super::work::{Cell, Class, Edge, FACETS, NONE, SUMMIT, Vertex, Work};
+use super::work::{Class, FACETS, NONE, State, Work};
 
 /// The material interface of `values.len() / (dim + 1)` materials (at least one) in a simplex of dimension `dim` (2 or 3).
 /// `values`: finite, material-major, `values[m * (dim + 1) + corner]`. Cost: some nanoseconds for each material and vertex, some
@@ -29,7 +29,9 @@ pub fn interface(dim: usize, values: &[f64], scratch: &mut Scratch, out: &mut Si
     debug_assert!(values.len() > dim);
     let Scratch { work, maps } = scratch;
     work.start(dim, values, true);
-    first(work);
+    work.dropped.clear();
+    work.twin.clear();
+    work.twin.resize(work.values.len(), NONE);
     for i in 1..work.values.len() {
         insert(work, dim, i);
     }
@@ -37,82 +39,12 @@ pub fn interface(dim: usize, values: &[f64], scratch: &mut Scratch, out: &mut Si
     export::interface(work, maps, dim, out);
 }
 
-/// The 4-simplex of the first material. Cells are numbered by their hyperplanes: walls 0..4, then materials.
-fn first(work: &mut Work) {
-    let n = work.values.len();
-    work.round = 1;
-    work.dropped.clear();
-    work.twin.clear();
-    work.twin.resize(n, NONE);
-    // The vertices that `start` has made know no material yet.
-    work.vertices.clear();
-    work.more_head.clear();
-    work.follow.clear();
-    for c in 0..4 {
-        work.new_vertex(std::array::from_fn(|p| if p == c { FACETS } else { p as u32 }));
-    }
-    work.vertices.push(Vertex { x: [0.0; 4], w: 1.0, planes: [0, 1, 2, 3], ..work.vertices[0] });
-    work.vertices[SUMMIT as usize].carrier = 0;
-    work.more_head.push(NONE);
-    work.follow.push([NONE; 2]);
-
-    let cells = n + FACETS as usize;
-    work.cells.clear();
-    work.cells.resize(cells, Cell::default());
-    work.half_faces.clear();
-    for f in 0..4 {
-        work.faces[f].cells = [FACETS, f as u32];
-    }
-    for e in &mut work.edges {
-        e.planes[2] = FACETS;
-    }
-    // Vertical edges over the corners, 6 + c, and vertical faces over the edges.
-    for c in 0..4u32 {
-        let mut walls = (0..4).filter(|&p| p != c);
-        let planes = std::array::from_fn(|_| walls.next().expect("three walls at a corner"));
-        work.edges.push(Edge { ends: [c, SUMMIT], planes, mark: 0, next: NONE, face: NONE });
-    }
-    for e in 0..6 {
-        let [p, q, _] = work.edges[e].planes;
-        // Seen from outside, the wall p goes along the edge against its facet.
-        let corners = work.faces[p as usize].at as usize;
-        let facet = &work.corners[corners..corners + 3];
-        let i = facet.iter().position(|&[_, edge]| edge == e as u32).expect("an edge of the facet");
-        let (a, b) = (facet[i][0], facet[(i + 1) % 3][0]);
-        work.push_face(&[b, a, SUMMIT], [q, p], NONE);
-    }
-    let count = work.faces.len() as u32;
-    for c in 0..=FACETS {
-        work.kept.clear();
-        for f in 0..count {
-            for side in 0..2 {
-                if work.faces[f as usize].cells[side as usize] == c {
-                    work.kept.push(f << 1 | side);
-                }
-            }
-        }
-        let halves = std::mem::take(&mut work.kept);
-        work.set_cell(c, &halves);
-        work.kept = halves;
-    }
-    work.vertex_edge.clear();
-    work.vertex_edge.resize(5, NONE);
-    for f in 0..count {
-        let face = work.faces[f as usize];
-        for k in face.at..face.at + face.len {
-            let [v, e] = work.corners[k as usize];
-            work.vertex_edge[v as usize] = e;
-            work.edges[e as usize].face = f;
-        }
-    }
-}
-
 fn insert(work: &mut Work, dim: usize, i: usize) {
     work.round = i as u32 + 1;
     work.zeros.clear();
     let mut seed = NONE;
     for v in 0..work.vertices.len() as u32 {
-        if !work.vertices[v as usize].dead && work.new_sign(v) > 0 {
+        if work.vertices[v as usize].state != State::Dead && work.new_sign(v) > 0 {
             seed = v;
             work.dropped.push(v);
         }
@@ -202,7 +134,7 @@ fn cut_away(work: &mut Work, i: usize, seed: u32) {
     work.set_cell(cell, &halves);
     work.moved = halves;
     for v in work.dropped.drain(..) {
-        work.vertices[v as usize].dead = true;
+        work.vertices[v as usize].state = State::Dead;
         work.free_vertices.push(v);
     }
     for e in work.dropped_edges.drain(..) {

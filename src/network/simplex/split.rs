@@ -12,7 +12,7 @@
 //!
 //! Cost: linear in the corners of the faces that are looked at. Each face is looked at once a round; nothing is allocated for one.
 
-use super::work::{Class, Edge, Face, NONE, Work};
+use super::work::{Class, Edge, FACETS, Face, NONE, State, Work};
 
 /// A face's class this round, and whether it has a vertex where the function vanishes.
 const TOUCHED: u32 = 4;
@@ -39,21 +39,26 @@ impl Work {
     fn new_class<const KEEP: bool>(&mut self, f: u32) -> u32 {
         let Face { at, len, .. } = self.faces[f as usize];
         let (at, len) = (at as usize, len as usize);
-        let mut previous = self.sign(self.corners[at + len - 1][0]);
+        for k in at..at + len {
+            let v = self.corners[k][0];
+            self.sign(v);
+        }
+        let (vertices, corners) = (&self.vertices[..], &self.corners[at..at + len]);
+        // 0, 1, 2: negative, zero, positive.
+        let sign = |corner: &[u32; 2]| vertices[corner[0] as usize].mark & 3;
+        let mut previous = sign(&corners[len - 1]);
         // Where the positive run starts and where it has ended; the corner before a zero edge.
         let (mut up, mut down, mut zero_edge) = (0, 0, NONE);
-        // Bits for signs seen: negative, zero, positive.
+        // Bits for signs seen.
         let mut seen = 0u32;
-        for k in 0..len {
-            let s = self.sign(self.corners[at + k][0]);
-            seen |= 1 << (s + 1);
-            if s > 0 && previous <= 0 {
-                up = k;
+        for (k, corner) in corners.iter().enumerate() {
+            let s = sign(corner);
+            seen |= 1 << s;
+            // Positive or not has changed.
+            if (s ^ previous) & 2 != 0 {
+                if s == 2 { up = k } else { down = k }
             }
-            if s <= 0 && previous > 0 {
-                down = k;
-            }
-            if s == 0 && previous == 0 {
+            if s & previous & 1 != 0 {
                 zero_edge = if k == 0 { len - 1 } else { k - 1 } as u32;
             }
             previous = s;
@@ -90,11 +95,13 @@ impl Work {
             };
         }
         let [a, b] = edge.ends;
-        let plane = self.round - 1 + super::work::FACETS;
+        let plane = self.round - 1 + FACETS;
         let [p, q, r] = edge.planes;
         let planes = if KEEP { [p, q, plane, NONE] } else { [p, q, r, plane] };
-        let cut = self.new_vertex(planes);
-        if self.vertices[a as usize].more && self.vertices[b as usize].more {
+        let (from, to) = (&self.vertices[a as usize], &self.vertices[b as usize]);
+        let both = from.state == State::More && to.state == State::More;
+        let cut = self.new_vertex(from.carrier | to.carrier, planes);
+        if both {
             self.inherit(cut, a, b);
         }
         if KEEP {
@@ -135,60 +142,66 @@ impl Work {
         };
         let (q, exit_negative, exit_positive) =
             if left_at_vertex { (exit_vertex, NONE, exit_edge) } else { self.cut_edge::<KEEP>(exit_edge, exit_vertex) };
-        let plane = self.round - 1 + super::work::FACETS;
-        let planes = if KEEP { [face.plane, plane, NONE] } else { [face.cells[0], face.cells[1], plane] };
+        let plane = self.round - 1 + FACETS;
+        let planes = if KEEP { [face.plane, plane, NONE] } else { [face.cells[1], face.cells[0], plane] };
         let cut = self.new_edge(Edge { ends: [p, q], planes, mark: 0, next: NONE, face: f });
 
-        let copy = |corners: &mut Vec<[u32; 2]>, from: usize, to: usize| {
-            if from <= to {
-                corners.extend_from_within(at + from..=at + to);
-            } else {
-                corners.extend_from_within(at + from..at + len);
-                corners.extend_from_within(at..=at + to);
+        // Corners that each part keeps. A zero vertex where the boundary enters belongs to the negative part as the end of its last edge,
+        // and where it leaves, as a corner like others.
+        let round = |from: usize, to: usize| if from <= to { to - from } else { to + len - from };
+        let positive = round(up, down);
+        let negative = round(down, before) + !entered_at_vertex as usize;
+        let start = self.corners.len();
+        let negative_at = start + if KEEP { positive + 2 } else { 0 };
+        let negative_len = negative + !left_at_vertex as usize + 1;
+        self.corners.resize(negative_at + negative_len, [NONE; 2]);
+        let (old, new) = self.corners.split_at_mut(start);
+        let old = &mut old[at..at + len];
+        let copy = |to: &mut [[u32; 2]], from: usize| {
+            let mut k = from;
+            for corner in to {
+                *corner = old[k];
+                k = if k + 1 == len { 0 } else { k + 1 };
             }
         };
         let mut child = NONE;
         if KEEP {
-            let start = self.corners.len();
-            self.corners.push([p, entry_positive]);
-            copy(&mut self.corners, up, last);
-            let end = self.corners.len();
-            self.corners[end - 1][1] = exit_positive;
-            self.corners.push([q, cut]);
+            let part = &mut new[..positive + 2];
+            part[0] = [p, entry_positive];
+            copy(&mut part[1..=positive], up);
+            part[positive][1] = exit_positive;
+            part[positive + 1] = [q, cut];
             child = self.faces.len() as u32;
-            self.faces.push(Face { at: start as u32, len: (end + 1 - start) as u32, mark: 0, ..face });
+            self.faces.push(Face { at: start as u32, len: positive as u32 + 2, mark: 0, ..face });
             // Edges on edges of the simplex know a face, which lies on a facet.
-            if face.plane < super::work::FACETS {
-                for k in start..end {
-                    let e = &mut self.edges[self.corners[k][1] as usize];
+            if face.plane < FACETS {
+                for &[_, e] in &*part {
+                    let e = &mut self.edges[e as usize];
                     if e.face == f {
                         e.face = child;
                     }
                 }
             }
         }
-        let start = self.corners.len();
+        let part = &mut new[negative_at - start..];
+        let first = !left_at_vertex as usize;
         if !left_at_vertex {
-            self.corners.push([q, exit_negative]);
+            part[0] = [q, exit_negative];
         }
-        if entered_at_vertex {
-            // The edge before the zero vertex leads to it as a whole. (It is not `down` itself: negative vertices lie between.)
-            copy(&mut self.corners, down, if before == 0 { len - 1 } else { before - 1 });
-        } else {
-            copy(&mut self.corners, down, before);
-            let end = self.corners.len();
-            self.corners[end - 1][1] = entry_negative;
+        copy(&mut part[first..first + negative], down);
+        if !entered_at_vertex {
+            part[first + negative - 1][1] = entry_negative;
         }
-        self.corners.push([p, cut]);
-        let count = self.corners.len() - start;
+        part[first + negative] = [p, cut];
         let face = &mut self.faces[f as usize];
-        if count <= len {
-            self.corners.copy_within(start.., at);
-            self.corners.truncate(start);
+        face.at = if negative_len <= len {
+            old[..negative_len].copy_from_slice(part);
+            self.corners.truncate(negative_at);
+            at as u32
         } else {
-            face.at = start as u32;
-        }
-        face.len = count as u32;
+            negative_at as u32
+        };
+        face.len = negative_len as u32;
         face.child = child;
         face.cut = cut;
     }

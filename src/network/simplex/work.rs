@@ -23,22 +23,33 @@ pub(super) struct Vertex {
     pub x: [f64; 4],
     /// Interface: the value of the envelope, scaled like `x`. Arrangement: 0.
     pub w: f64,
-    /// Independent planes that meet in this point alone: three (interface: four hyperplanes), padded with [`NONE`].
+    /// Independent planes that meet in this point alone, rising: three (interface: four hyperplanes), padded with [`NONE`].
     pub planes: [u32; 4],
     /// The sign of the current function here: round << 2 | sign + 1. Stale if the round is another.
     pub mark: u32,
     pub carrier: u8,
+    /// Corners of the carrier (0 for the summit).
+    pub size: u8,
     /// Orientation of the functions among `planes`: 2 if not yet known.
     pub orientation: i8,
-    /// Whether other functions than those of `planes` vanish (are largest) here.
-    pub more: bool,
-    pub dead: bool,
+    pub state: State,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
+pub(super) enum State {
+    /// No other functions than those of its planes vanish (are largest) here.
+    Plain,
+    /// Some others do; see `more`.
+    More,
+    /// To be used again.
+    Dead,
 }
 
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Edge {
     pub ends: [u32; 2],
-    /// Two independent planes that hold it (interface: three hyperplanes).
+    /// Two independent planes that hold it, rising (interface: three hyperplanes).
     pub planes: [u32; 3],
     /// The round in which it was cut (or dropped).
     pub mark: u32,
@@ -141,21 +152,110 @@ pub(super) struct Work {
     filtered: u64,
 }
 
-/// Corners of each facet, counterclockwise when seen from inside (in a simplex of positive orientation).
-const FACET_CORNERS: [[u32; 3]; 4] = [[1, 3, 2], [0, 2, 3], [0, 3, 1], [0, 1, 2]];
 /// Ends of the simplex's edges.
 pub(super) const EDGE_CORNERS: [[u32; 2]; 6] = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
 /// The vertex above all others in an interface.
 pub(super) const SUMMIT: u32 = 4;
 
-/// The simplex's edge between two corners.
-fn edge_between(a: u32, b: u32) -> u32 {
-    let (a, b) = (a.min(b), a.max(b));
-    EDGE_CORNERS.iter().position(|&e| e == [a, b]).expect("two corners") as u32
+/// What a work begins with. First the simplex: edges as in [`EDGE_CORNERS`], face c opposite to corner c, counterclockwise when seen from
+/// inside (in a simplex of positive orientation). Then what an interface adds: edges 6 + c from corner c to the summit, and
+/// face 4 + e over edge e between the two walls that share it, the higher one on its positive side.
+const CORNERS: [[[u32; 2]; 3]; 10] = [
+    [[1, 4], [3, 5], [2, 3]],
+    [[0, 1], [2, 5], [3, 2]],
+    [[0, 2], [3, 4], [1, 0]],
+    [[0, 0], [1, 3], [2, 1]],
+    [[0, 0], [1, 7], [4, 6]],
+    [[2, 1], [0, 6], [4, 8]],
+    [[0, 2], [3, 9], [4, 6]],
+    [[1, 3], [2, 8], [4, 7]],
+    [[3, 4], [1, 7], [4, 9]],
+    [[2, 5], [3, 9], [4, 8]],
+];
+/// Half-faces of the walls and of the first material's cell.
+const WALLS: [[u32; 4]; 5] = [[1, 15, 17, 19], [3, 11, 13, 18], [5, 9, 12, 16], [7, 8, 10, 14], [0, 2, 4, 6]];
+
+const START: Start = Start {
+    vertices: {
+        let mut all = [Vertex::at_corner(0); 5];
+        let mut c = 0;
+        while c < 4 {
+            all[c] = Vertex::at_corner(c);
+            c += 1;
+        }
+        // The summit is above everything.
+        all[4].x = [0.0; 4];
+        all[4].w = 1.0;
+        all[4].planes = [0, 1, 2, 3];
+        (all[4].carrier, all[4].size) = (0, 0);
+        all
+    },
+    edges: {
+        let mut all = [Edge { ends: [0; 2], planes: [NONE; 3], mark: 0, next: NONE, face: 4 }; 10];
+        let mut e = 0;
+        while e < 6 {
+            // An edge lies on the two facets opposite to the ends of its opposite edge.
+            let [p, q] = EDGE_CORNERS[5 - e];
+            (all[e].ends, all[e].planes, all[e].face) = (EDGE_CORNERS[e], [p, q, NONE], p);
+            e += 1;
+        }
+        let mut c = 0;
+        while c < 4 {
+            let [p, q, r, _] = Vertex::at_corner(c).planes;
+            (all[6 + c].ends, all[6 + c].planes) = ([c as u32, SUMMIT], [p, q, r]);
+            c += 1;
+        }
+        // Face 4 knows corners 0 and 1.
+        (all[8].face, all[9].face) = (5, 6);
+        all
+    },
+    faces: {
+        let mut all = [Face { at: 0, len: 3, cells: [0, NONE], plane: NONE, mark: 0, child: NONE, cut: NONE }; 10];
+        let mut f = 0;
+        while f < 10 {
+            all[f].at = 3 * f as u32;
+            if f < 4 {
+                all[f].plane = f as u32;
+            } else {
+                let [p, q] = EDGE_CORNERS[9 - f];
+                all[f].cells = [q, p];
+            }
+            f += 1;
+        }
+        all
+    },
+};
+
+struct Start {
+    vertices: [Vertex; 5],
+    edges: [Edge; 10],
+    faces: [Face; 10],
+}
+
+impl Vertex {
+    /// The functions among its planes, from the front: facets come before them, as many as its carrier lacks corners.
+    #[inline(always)]
+    pub fn functions(&self) -> [u32; 4] {
+        let p = self.planes.map(|p| if p == NONE { NONE } else { p.wrapping_sub(FACETS) });
+        match self.size {
+            1 => [p[3], NONE, NONE, NONE],
+            2 => [p[2], p[3], NONE, NONE],
+            3 => [p[1], p[2], p[3], NONE],
+            _ => p,
+        }
+    }
+
+    /// Corner c, without a function.
+    const fn at_corner(c: usize) -> Self {
+        let mut x = [0.0; 4];
+        x[c] = 1.0;
+        let planes = [[1, 2, 3, NONE], [0, 2, 3, NONE], [0, 1, 3, NONE], [0, 1, 2, NONE]][c];
+        Self { x, w: 0.0, planes, mark: 0, carrier: 1 << c, size: 1, orientation: 2, state: State::Plain }
+    }
 }
 
 const U: f64 = f64::EPSILON / 2.0;
-/// Bounds on the error of `f.x - w`, by the dimension of the carrier, with u = 2^-53. All rows and f have entries of at most 1.
+/// Bounds on the error of `f.x - w`, by the size of the carrier (its dimension and one), with u = 2^-53. All rows and f have entries of at most 1.
 ///
 /// Arrangement. Dimension 1: coordinates are values themselves, hence exact; two products and a sum: 4u. Dimension 2: a minor of
 /// entries up to 1 is off by 2u for its products and 2u for the difference; three of them, with products up to 2 and sums up to
@@ -167,7 +267,8 @@ const U: f64 = f64::EPSILON / 2.0;
 /// coordinates 46u: 184u + 78u + 78u + 24u + 48u = 412u.
 ///
 /// What underflow loses is below 2^-1000, and terms of second order are far below the slack left.
-const ERROR: [[f64; 4]; 2] = [[0.0, 8.0 * U, 40.0 * U, 256.0 * U], [0.0, 24.0 * U, 96.0 * U, 512.0 * U]];
+const ERROR: [[f64; 8]; 2] =
+    [[0.0, 0.0, 8.0 * U, 40.0 * U, 256.0 * U, 0.0, 0.0, 0.0], [0.0, 0.0, 24.0 * U, 96.0 * U, 512.0 * U, 0.0, 0.0, 0.0]];
 /// A sum of coordinates below this (4 coordinates off by 46u) says nothing about their signs.
 const NOTHING: f64 = 256.0 * U;
 
@@ -205,32 +306,32 @@ impl Work {
         self.free_vertices.clear();
         self.free_edges.clear();
         self.free_faces.clear();
-        for c in 0..4u32 {
-            let facets = [0, 1, 2, 3].into_iter().filter(|&p| p != c);
-            let mut planes = [NONE; 4];
-            planes.iter_mut().zip(facets).for_each(|(p, f)| *p = f);
-            self.new_vertex(planes);
+        if interface {
+            self.vertices.extend_from_slice(&START.vertices);
+            for (c, v) in self.vertices[..4].iter_mut().enumerate() {
+                v.planes[3] = FACETS;
+                v.w = self.scaled[0][c];
+            }
+            self.edges.extend_from_slice(&START.edges);
+            self.edges[..6].iter_mut().for_each(|e| e.planes[2] = FACETS);
+            self.faces.extend_from_slice(&START.faces);
+            self.faces[..4].iter_mut().enumerate().for_each(|(f, face)| face.cells = [FACETS, f as u32]);
+            self.corners.extend_from_slice(CORNERS.as_flattened());
+            self.half_faces.extend_from_slice(WALLS.as_flattened());
+            // Cells are numbered by their hyperplanes.
+            self.cells.extend((0..5).map(|c| Cell { at: 4 * c, len: 4, room: 4, mark: 0 }));
+            self.cells.resize(n + FACETS as usize, Cell::default());
+            self.vertex_edge.clear();
+            self.vertex_edge.extend([6, 7, 8, 9, 6]);
+        } else {
+            self.vertices.extend_from_slice(&START.vertices[..4]);
+            self.edges.extend_from_slice(&START.edges[..6]);
+            self.faces.extend_from_slice(&START.faces[..4]);
+            self.corners.extend_from_slice(CORNERS[..4].as_flattened());
+            self.push_cell(&[0, 2, 4, 6]);
         }
-        for (e, &ends) in EDGE_CORNERS.iter().enumerate() {
-            // Edge e lies on the two facets opposite to its opposite edge's ends.
-            let [p, q] = EDGE_CORNERS[5 - e];
-            let face = p;
-            self.edges.push(Edge { ends, planes: [p, q, NONE], mark: 0, next: NONE, face });
-        }
-        for (p, loop_) in FACET_CORNERS.iter().enumerate() {
-            self.push_face(loop_, [0, NONE], p as u32);
-        }
-        self.push_cell(&[0, 2, 4, 6]);
-    }
-
-    pub fn push_face(&mut self, vertices: &[u32; 3], cells: [u32; 2], plane: u32) {
-        let at = self.corners.len() as u32;
-        for i in 0..3 {
-            let (v, to) = (vertices[i], vertices[(i + 1) % 3]);
-            let edge = if v.max(to) == SUMMIT { 6 + v.min(to) } else { edge_between(v, to) };
-            self.corners.push([v, edge]);
-        }
-        self.faces.push(Face { at, len: 3, cells, plane, mark: 0, child: NONE, cut: NONE });
+        self.more_head.resize(self.vertices.len(), NONE);
+        self.follow.resize(self.vertices.len(), [NONE; 2]);
     }
 
     pub fn push_cell(&mut self, half_faces: &[u32]) {
@@ -301,7 +402,7 @@ impl Work {
     pub fn filtered_sign(&self, f: usize, v: u32) -> Option<Sign> {
         let (f, v) = (&self.scaled[f], &self.vertices[v as usize]);
         let s = (f[0] * v.x[0] + f[1] * v.x[1]) + (f[2] * v.x[2] + f[3] * v.x[3]) - v.w;
-        let error = ERROR[self.interface as usize][(v.carrier.count_ones() as usize).wrapping_sub(1) & 3];
+        let error = ERROR[self.interface as usize][v.size as usize & 7];
         if s > error {
             Some(Sign::Positive)
         } else if s < -error {
@@ -315,22 +416,16 @@ impl Work {
     #[inline(never)]
     pub fn exact_sign(&mut self, f: usize, v: u32) -> Sign {
         let vertex = self.vertices[v as usize];
-        let mut ids = [0; 4];
-        let mut n = 0;
-        for p in vertex.planes {
-            if p != NONE && p >= FACETS {
-                ids[n] = (p - FACETS) as usize;
-                n += 1;
-            }
-        }
+        let ids = vertex.functions();
+        let n = vertex.size as usize - 1 + self.interface as usize;
         let function = |k: usize| {
             let f = &self.values[k];
-            if self.interface { Function::Difference(f, &self.values[ids[0]]) } else { Function::Values(f) }
+            if self.interface { Function::Difference(f, &self.values[ids[0] as usize]) } else { Function::Values(f) }
         };
         let skip = self.interface as usize;
         let mut rows = [Function::Values(&[]); 4];
         for k in skip..n {
-            rows[k - skip] = function(ids[k]);
+            rows[k - skip] = function(ids[k] as usize);
         }
         let (through, f) = (&rows[..n - skip], function(f));
         let side = match vertex.orientation {
@@ -344,22 +439,25 @@ impl Work {
         sign
     }
 
-    /// A vertex where these planes meet; the current function vanishes there. Returns its number.
-    pub fn new_vertex(&mut self, planes: [u32; 4]) -> u32 {
-        let mut carrier = 0b1111;
-        let mut ids = [0; 4];
-        let mut n = 0;
-        for p in planes {
-            if p < FACETS {
-                carrier &= !(1u8 << p);
-            } else if p != NONE {
-                ids[n] = (p - FACETS) as usize;
-                n += 1;
-            }
+    /// A vertex where these planes meet on a carrier; the current function vanishes there. Returns its number.
+    pub fn new_vertex(&mut self, carrier: u8, planes: [u32; 4]) -> u32 {
+        const SIZES: [u8; 16] = [0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4];
+        let mut vertex = Vertex {
+            x: [0.0; 4],
+            w: 0.0,
+            planes,
+            mark: self.round << 2 | 1,
+            carrier,
+            size: SIZES[carrier as usize & 15],
+            orientation: 2,
+            state: State::Plain,
+        };
+        let ids = vertex.functions();
+        if self.interface {
+            (vertex.x, vertex.w) = self.meet_interface(carrier, vertex.size, &ids);
+        } else {
+            vertex.x = self.meet(carrier, vertex.size, &ids);
         }
-        let (x, w) = if self.interface { self.meet_interface(carrier, &ids) } else { (self.meet(carrier, &ids), 0.0) };
-        let vertex =
-            Vertex { x, w, planes, mark: self.round << 2 | 1, carrier, orientation: 2, more: false, dead: false };
         if let Some(v) = self.free_vertices.pop() {
             self.vertices[v as usize] = vertex;
             self.more_head[v as usize] = NONE;
@@ -373,9 +471,9 @@ impl Work {
 
     /// Coordinates of the point of a carrier where functions vanish.
     #[inline(always)]
-    fn meet(&self, carrier: u8, ids: &[usize; 4]) -> [f64; 4] {
-        let row = |k: usize| &self.scaled[ids[k]];
-        match carrier.count_ones() {
+    fn meet(&self, carrier: u8, size: u8, ids: &[u32; 4]) -> [f64; 4] {
+        let row = |k: usize| &self.scaled[ids[k] as usize];
+        match size {
             1 => unit(carrier),
             2 => meet_edge(carrier, row(0)),
             3 => meet_triangle(carrier, row(0), row(1)),
@@ -385,23 +483,23 @@ impl Work {
 
     /// Coordinates of the point of a carrier where materials are equal, and their value there.
     #[inline(always)]
-    fn meet_interface(&self, carrier: u8, ids: &[usize; 4]) -> ([f64; 4], f64) {
+    fn meet_interface(&self, carrier: u8, size: u8, ids: &[u32; 4]) -> ([f64; 4], f64) {
         // Differences are small where materials are close: each row is scaled for itself.
         let row = |k: usize| {
-            let (a, b) = (&self.raised[ids[k]], &self.raised[ids[0]]);
+            let (a, b) = (&self.raised[ids[k] as usize], &self.raised[ids[0] as usize]);
             let d: [f64; 4] = std::array::from_fn(|c| a[c] - b[c]);
             let most = max_abs(&std::array::from_fn(|c| if carrier >> c & 1 != 0 { d[c] } else { 0.0 }));
             // Below that, what scaling lost to underflow could show.
             let s = if most > 1e-100 { scale(most).0 } else { f64::NAN };
             d.map(|x| x * s)
         };
-        let x = match carrier.count_ones() {
+        let x = match size {
             1 => unit(carrier),
             2 => meet_edge(carrier, &row(1)),
             3 => meet_triangle(carrier, &row(1), &row(2)),
             _ => meet_inside(&row(1), &row(2), &row(3)),
         };
-        let f = &self.scaled[ids[0]];
+        let f = &self.scaled[ids[0] as usize];
         (x, (f[0] * x[0] + f[1] * x[1]) + (f[2] * x[2] + f[3] * x[3]))
     }
 
@@ -415,7 +513,7 @@ impl Work {
             }
             self.more.push([plane, self.more_head[v]]);
             self.more_head[v] = self.more.len() as u32 - 1;
-            self.vertices[v].more = true;
+            self.vertices[v].state = State::More;
         }
     }
 
@@ -454,7 +552,7 @@ impl Work {
                 work.ticks[p as usize] = 0;
                 work.more.push([p, work.more_head[v as usize]]);
                 work.more_head[v as usize] = work.more.len() as u32 - 1;
-                work.vertices[v as usize].more = true;
+                work.vertices[v as usize].state = State::More;
             }
         };
         for p in self.vertices[a as usize].planes {
