@@ -18,6 +18,9 @@ use super::work::{Class, EDGE_CORNERS, FACETS, NONE, Work};
 pub(super) const EVERYWHERE: u32 = NONE - 1;
 pub(super) const NOWHERE: u32 = NONE;
 
+/// Up to so many vertices get their signs in one pass, which is faster than asking for each whether it has one.
+const FEW: usize = 48;
+
 /// The arrangement of `values.len() / (dim + 1)` functions (any number, none included) in a simplex of dimension `dim` (2 or 3).
 /// `values`: finite, function-major, `values[f * (dim + 1) + corner]`. Cost: a few hundred nanoseconds for each cell; see the head of
 /// this file.
@@ -45,6 +48,11 @@ fn insert(work: &mut Work, dim: usize, f: usize) {
     }
     let (mut plane, mut opposite) = (f as u32 + FACETS, false);
     if positive != 0 && negative != 0 {
+        if work.vertices.len() <= FEW {
+            for v in 0..work.vertices.len() as u32 {
+                work.new_sign(v);
+            }
+        }
         if let Some(old) = split(work, positive, negative) {
             plane = old;
             let other = &work.values[(old - FACETS) as usize];

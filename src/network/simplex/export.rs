@@ -52,34 +52,46 @@ pub(super) fn arrangement(work: &mut Work, maps: &mut Maps, dim: usize, out: &mu
     let plain = planes(work, maps, dim, out);
 
     maps.vertices.clear();
+    maps.order.clear();
     for (v, vertex) in work.vertices.iter().enumerate() {
-        if dim == 2 && vertex.carrier >> 3 != 0 {
-            maps.vertices.push(NONE);
-            continue;
+        // The apex alone is above the triangle.
+        let left_out = dim == 2 && vertex.carrier >> 3 != 0;
+        maps.vertices.push(if left_out { NONE } else { maps.order.len() as u32 });
+        if !left_out {
+            maps.order.push(v as u32);
         }
-        maps.vertices.push(out.vertex_carrier.len() as u32);
-        out.vertex_carrier.push(Carrier(vertex.carrier));
-        let encoded = vertex.functions().map(LocalFunction);
-        out.vertex_encoding.push(encoded);
-        if plain && vertex.state == State::Plain {
-            out.vertex_functions.items.extend(encoded.into_iter().take_while(|f| f.is_some()));
-        } else {
+    }
+    let vertices = || maps.order.iter().map(|&v| &work.vertices[v as usize]);
+    out.vertex_carrier.extend(vertices().map(|v| Carrier(v.carrier)));
+    out.vertex_encoding.extend(vertices().map(|v| v.functions().map(LocalFunction)));
+    if plain && work.more.is_empty() {
+        // As many functions as the carrier has dimensions; what is written beyond is overwritten.
+        let items = &mut out.vertex_functions.items;
+        items.resize(3 * maps.order.len() + 4, LocalFunction::NONE);
+        let mut end = 0;
+        for (v, encoding) in vertices().zip(&out.vertex_encoding) {
+            items[end..end + 4].copy_from_slice(encoding);
+            end += v.size as usize - 1;
+            out.vertex_functions.offsets.push(end as u32);
+        }
+        items.truncate(end);
+    } else {
+        for &v in &maps.order {
             maps.set.clear();
-            for p in vertex.planes {
+            for p in work.vertices[v as usize].planes {
                 // (The triangle itself has no row.)
                 if p != NONE && maps.rows[p as usize] != NONE {
                     maps.set.extend_from_slice(out.plane_functions.row(maps.rows[p as usize] as usize));
                 }
             }
-            more(work, v, |p| match maps.rows[p as usize] {
+            more(work, v as usize, |p| match maps.rows[p as usize] {
                 // It touches here only.
                 NONE => maps.set.push(LocalFunction(p - FACETS)),
                 row => maps.set.extend_from_slice(out.plane_functions.row(row as usize)),
             });
             maps.set.sort_unstable();
-            out.vertex_functions.items.extend_from_slice(&maps.set);
+            out.vertex_functions.push_row(&maps.set);
         }
-        out.vertex_functions.end_row();
     }
 
     let cells = |f: &super::work::Face| f.cells.map(LocalCell);
@@ -89,19 +101,32 @@ pub(super) fn arrangement(work: &mut Work, maps: &mut Maps, dim: usize, out: &mu
     };
     if dim == 3 {
         out.edges.extend(work.edges.iter().map(|e| e.ends.map(LocalVertex)));
+        out.face_support.extend(work.faces.iter().map(|f| support(f.plane)));
+        out.face_plane.extend(work.faces.iter().map(|f| LocalPlane(maps.rows[f.plane as usize])));
+        out.face_cells.extend(work.faces.iter().map(cells));
+        let total = extend_offsets(&mut out.face_vertices.offsets, work.faces.iter().map(|f| f.len));
+        out.face_vertices.items.resize(total, LocalVertex::NONE);
+        out.face_edges.resize(total, LocalEdge::NONE);
+        let mut at = 0;
         for face in &work.faces {
-            let corners = &work.corners[face.at as usize..(face.at + face.len) as usize];
-            out.face_vertices.items.extend(corners.iter().map(|c| LocalVertex(c[0])));
-            out.face_vertices.end_row();
-            out.face_edges.extend(corners.iter().map(|c| LocalEdge(c[1])));
-            out.face_support.push(support(face.plane));
-            out.face_plane.push(LocalPlane(maps.rows[face.plane as usize]));
-            out.face_cells.push(cells(face));
+            let (from, len) = (face.at as usize, face.len as usize);
+            let to = out.face_vertices.items[at..at + len].iter_mut().zip(&mut out.face_edges[at..at + len]);
+            for ((vertex, edge), corner) in to.zip(&work.corners[from..from + len]) {
+                *vertex = LocalVertex(corner[0]);
+                *edge = LocalEdge(corner[1]);
+            }
+            at += len;
         }
+        let total = extend_offsets(&mut out.cell_faces.offsets, work.cells.iter().map(|c| c.len));
+        out.cell_faces.items.resize(total, LocalHalfFace(0));
+        let mut at = 0;
         for cell in &work.cells {
-            let halves = &work.half_faces[cell.at as usize..(cell.at + cell.len) as usize];
-            out.cell_faces.items.extend(halves.iter().map(|&h| LocalHalfFace(h)));
-            out.cell_faces.end_row();
+            let (from, len) = (cell.at as usize, cell.len as usize);
+            let to = &mut out.cell_faces.items[at..at + len];
+            for (half, &from) in to.iter_mut().zip(&work.half_faces[from..from + len]) {
+                *half = LocalHalfFace(from);
+            }
+            at += len;
         }
     } else {
         maps.faces.clear();
@@ -185,6 +210,16 @@ fn planes(work: &Work, maps: &mut Maps, dim: usize, out: &mut SimplexComplex) ->
     false
 }
 
+/// Adds the ends of rows of these lengths; returns the last.
+fn extend_offsets(offsets: &mut Vec<u32>, lengths: impl Iterator<Item = u32>) -> usize {
+    let mut end = 0;
+    offsets.extend(lengths.map(|n| {
+        end += n;
+        end
+    }));
+    end as usize
+}
+
 /// Visits the planes at a vertex beyond its own.
 fn more(work: &Work, v: usize, mut visit: impl FnMut(u32)) {
     let mut i = work.more_head[v];
@@ -263,9 +298,9 @@ fn sign_in_first_cell(work: &mut Work, f: usize) -> Sign {
             let face = work.faces[(work.half_faces[k] >> 1) as usize];
             for i in face.at..face.at + face.len {
                 let v = work.corners[i as usize][0];
-                let sign = if exactly { Some(work.exact_sign(f, v)) } else { work.filtered_sign(f, v) };
-                if let Some(s) = sign.filter(|s| !s.is_zero()) {
-                    return s;
+                let sign = if exactly { work.exact_sign(f, v) as i32 } else { work.filtered_sign(f, v) };
+                if sign != 0 {
+                    return if sign > 0 { Sign::Positive } else { Sign::Negative };
                 }
             }
         }

@@ -85,14 +85,13 @@ impl Work {
     #[inline]
     fn cut_edge<const KEEP: bool>(&mut self, e: u32, v: u32) -> (u32, u32, u32) {
         let edge = self.edges[e as usize];
+        // The parts in order: `v`'s first.
+        let parts = |cut: u32, child: u32| {
+            let turned = edge.ends[0] != v;
+            (cut, if turned { child } else { e }, if turned { e } else { child })
+        };
         if edge.mark == self.round {
-            return if !KEEP {
-                (edge.next, e, NONE)
-            } else if edge.ends[0] == v {
-                (edge.ends[1], e, edge.next)
-            } else {
-                (edge.ends[1], edge.next, e)
-            };
+            return if KEEP { parts(edge.ends[1], edge.next) } else { (edge.next, e, NONE) };
         }
         let [a, b] = edge.ends;
         let plane = self.round - 1 + FACETS;
@@ -111,7 +110,7 @@ impl Work {
             e_mut.ends[1] = cut;
             e_mut.next = child;
             e_mut.mark = self.round;
-            if a == v { (cut, e, child) } else { (cut, child, e) }
+            parts(cut, child)
         } else {
             let positive = (self.known_sign(b) > 0) as usize;
             let e_mut = &mut self.edges[e as usize];
@@ -176,10 +175,9 @@ impl Work {
             // Edges on edges of the simplex know a face, which lies on a facet.
             if face.plane < FACETS {
                 for &[_, e] in &*part {
+                    // Chosen, not jumped to: it is as often so as not.
                     let e = &mut self.edges[e as usize];
-                    if e.face == f {
-                        e.face = child;
-                    }
+                    e.face = if e.face == f { child } else { e.face };
                 }
             }
         }

@@ -237,12 +237,9 @@ impl Vertex {
     #[inline(always)]
     pub fn functions(&self) -> [u32; 4] {
         let p = self.planes.map(|p| if p == NONE { NONE } else { p.wrapping_sub(FACETS) });
-        match self.size {
-            1 => [p[3], NONE, NONE, NONE],
-            2 => [p[2], p[3], NONE, NONE],
-            3 => [p[1], p[2], p[3], NONE],
-            _ => p,
-        }
+        let p = [p[0], p[1], p[2], p[3], NONE, NONE, NONE, NONE];
+        let facets = 4 - self.size as usize & 3;
+        std::array::from_fn(|k| p[facets + k])
     }
 
     /// Corner c, without a function.
@@ -383,13 +380,12 @@ impl Work {
     #[inline(always)]
     pub fn new_sign(&mut self, v: u32) -> i32 {
         let f = (self.round - 1) as usize;
-        let sign = match self.filtered_sign(f, v) {
-            Some(s) => {
-                self.filtered += 1;
-                s as i32
-            }
-            None => self.exact_sign(f, v) as i32,
-        };
+        let mut sign = self.filtered_sign(f, v);
+        self.filtered += 1;
+        if sign == 0 {
+            self.filtered -= 1;
+            sign = self.exact_sign(f, v) as i32;
+        }
         self.vertices[v as usize].mark = self.round << 2 | (sign + 1) as u32;
         if sign == 0 {
             self.zeros.push(v);
@@ -397,19 +393,14 @@ impl Work {
         sign
     }
 
-    /// The sign of function `f` at a vertex (interface: of its difference to the envelope), if the bound decides.
+    /// The sign of function `f` at a vertex (interface: of its difference to the envelope); 0 if the bound does not decide.
     #[inline(always)]
-    pub fn filtered_sign(&self, f: usize, v: u32) -> Option<Sign> {
+    pub fn filtered_sign(&self, f: usize, v: u32) -> i32 {
         let (f, v) = (&self.scaled[f], &self.vertices[v as usize]);
         let s = (f[0] * v.x[0] + f[1] * v.x[1]) + (f[2] * v.x[2] + f[3] * v.x[3]) - v.w;
         let error = ERROR[self.interface as usize][v.size as usize & 7];
-        if s > error {
-            Some(Sign::Positive)
-        } else if s < -error {
-            Some(Sign::Negative)
-        } else {
-            None
-        }
+        // Signs are as good as random, so nothing jumps on them.
+        (s > error) as i32 - (s < -error) as i32
     }
 
     /// The same from the planes.
