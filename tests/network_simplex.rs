@@ -293,15 +293,17 @@ fn expected(kind: Kind, dim: usize, values: &[Vec<f64>]) -> [usize; 4] {
 
 const KINDS: [Kind; 2] = [Kind::Arrangement, Kind::Interface];
 
+/// Some seconds; with LAPIDARY_LONG=1 5000 simplices of each kind, some minutes.
 #[test]
 fn small_integers_agree_with_rationals() {
+    let long = std::env::var_os("LAPIDARY_LONG").is_some();
     let mut bench = Bench::default();
     let mut r = Random(7);
     for kind in KINDS {
         for dim in [2, 3] {
-            for n in 1..=5 {
+            for n in 1..=if long { 7 } else { 5 } {
                 for m in [1, 2, 5] {
-                    for _ in 0..40 {
+                    for _ in 0..if long { 5000 } else { 40 } {
                         let values = r.integers(n, dim, m);
                         let found = counts(bench.run(kind, dim, &values));
                         assert_eq!(found, expected(kind, dim, &values), "{kind:?} {dim} {values:?}");

@@ -238,7 +238,7 @@ impl Vertex {
     pub fn functions(&self) -> [u32; 4] {
         let p = self.planes.map(|p| if p == NONE { NONE } else { p.wrapping_sub(FACETS) });
         let p = [p[0], p[1], p[2], p[3], NONE, NONE, NONE, NONE];
-        let facets = 4 - self.size as usize & 3;
+        let facets = (4 - self.size as usize) & 3;
         std::array::from_fn(|k| p[facets + k])
     }
 
