@@ -5,6 +5,7 @@
 mod assemble;
 mod box_cubes;
 mod box_edges;
+mod check;
 pub mod data;
 pub mod domain;
 pub mod extract;
