@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::functions::{read_spheres, sphere_values};
+use common::functions::{evaluate, read_spheres, sphere_values};
 use common::random::Random;
 use lapidary::base::{FunctionId, NodeId, Run, TetId};
 use lapidary::exact::{Sign, round_rational};
@@ -59,13 +59,11 @@ fn solve(nodes: &[NodeId], mut rows: Vec<Vec<Rational>>) -> Point {
         rows.swap(rank, pivot);
         let lead = rows[rank][column].clone();
         rows[rank].iter_mut().for_each(|x| *x /= &lead);
-        for r in (0..rows.len()).filter(|&r| r != rank) {
-            let factor = rows[r][column].clone();
+        let pivot = rows[rank].clone();
+        for row in rows.iter_mut().enumerate().filter(|(r, _)| *r != rank).map(|(_, row)| row) {
+            let factor = row[column].clone();
             if factor != 0 {
-                for c in 0..=n {
-                    let x = Rational::from(&rows[rank][c] * &factor);
-                    rows[r][c] -= x;
-                }
+                row.iter_mut().zip(&pivot).for_each(|(x, y)| *x -= Rational::from(y * &factor));
             }
         }
         rank += 1;
@@ -325,14 +323,17 @@ fn random_signs_in_the_plane() {
     }
 }
 
+/// A file of functions, its kind, active simplices, vertices, polygons, V − E + F.
+struct Known(&'static str, Kind, &'static [u64], usize, usize, i64);
+
 #[test]
 fn known_counts() {
-    let known: [(&str, Kind, &[u64], usize, usize, i64); 3] = [
-        ("ia-spheres-4", Kind::Arrangement, &[0, 166436, 5208, 67], 113984, 181737, 113984 - 295706 + 181737),
-        ("mi-spheres-4", Kind::Interface, &[0, 0, 138713, 1727], 91545, 142533, 91545 - 234078 + 142533),
-        ("ia-nested-18", Kind::Arrangement, &[0, 932164], 587822, 932164, 36),
+    let known = [
+        Known("ia-spheres-4", Kind::Arrangement, &[0, 166436, 5208, 67], 113984, 181737, 113984 - 295706 + 181737),
+        Known("mi-spheres-4", Kind::Interface, &[0, 0, 138713, 1727], 91545, 142533, 91545 - 234078 + 142533),
+        Known("ia-nested-18", Kind::Arrangement, &[0, 932164], 587822, 932164, 36),
     ];
-    for (name, kind, active, vertices, polygons, characteristic) in known {
+    for Known(name, kind, active, vertices, polygons, characteristic) in known {
         let Some(path) = common::shared(&format!("data/functions/{name}.json")) else { return };
         let grid = cube(99);
         let arrays = sphere_values(&grid, &read_spheres(&path));
@@ -341,4 +342,289 @@ fn known_counts() {
         assert_eq!((network.vertex_count(), network.polygon_count()), (vertices, polygons), "{name}");
         assert_eq!(euler(&network), characteristic, "{name}");
     }
+}
+
+/// Spheres around the center of the box and its corners, planes through nodes: zeros at nodes, on edges, on faces of tetrahedra. As functions of
+/// whole numbers, so that they are what they say.
+fn symmetric(grid: &BoxGrid) -> Vec<Vec<f64>> {
+    let n = grid.cells()[0] as i64;
+    let at = |node: usize| grid.place(NodeId::of(node)).map(|i| 2 * i as i64 - n);
+    let all = |f: &dyn Fn([i64; 3]) -> i64| (0..grid.node_count()).map(|v| f(at(v)) as f64).collect();
+    let r = n / 2;
+    vec![
+        all(&|[x, y, z]| r * r - x * x - y * y - z * z),
+        all(&|[x, _, _]| x),
+        all(&|[_, y, z]| y + z),
+        all(&|[x, y, z]| x + y - z),
+        all(&|[x, y, z]| r * r - (x - r) * (x - r) - y * y - z * z),
+        all(&|[x, _, _]| -x),
+        all(&|[x, y, z]| r - x.abs() - y.abs() - z.abs()),
+    ]
+}
+
+#[test]
+fn symmetric_functions() {
+    for n in [4, 6, 20, 40, 100] {
+        let grid = cube(n);
+        let arrays = symmetric(&grid);
+        let domain = Domain::Box(grid);
+        // Alone, a sphere and an octahedron are closed, and planes are disks, whose boundary is that of the box.
+        for (f, characteristic) in [(0, 2), (1, 1), (2, 1), (6, 2)] {
+            let network = network(&domain, &arrays[f..=f], Kind::Arrangement);
+            assert_eq!(euler(&network), characteristic, "function {f} at {n}");
+        }
+        // The plane x = 0 lies on faces of the grid: 2 n² triangles of nodes.
+        let plane = network(&domain, &arrays[1..=1], Kind::Arrangement);
+        assert_eq!(plane.polygon_count(), if n % 2 == 0 { 2 * (n * n) as usize } else { 0 });
+        if n <= 40 {
+            for kind in KINDS {
+                network(&domain, &arrays, kind);
+            }
+        }
+    }
+    let domain = Domain::Box(cube(4));
+    let Domain::Box(grid) = &domain else { unreachable!() };
+    let arrays = symmetric(grid);
+    for kind in KINDS {
+        let found = polygons(&network(&domain, &arrays, kind), &domain, &arrays);
+        assert!(found == plain_union(&domain, &arrays, kind), "{kind:?}");
+    }
+}
+
+/// Functions of ordinary position on a small box.
+fn waves(grid: &BoxGrid, functions: usize) -> Vec<Vec<f64>> {
+    let mut random = Random(7);
+    let one = |_| {
+        let [a, b, c, d] = [0; 4].map(|_| 4.0 * random.signed());
+        let f = move |x: &[f64; 3]| (a * x[0]).sin() + (b * x[1]).cos() + (c * x[2]).sin() - 0.1 * d;
+        evaluate(grid, &[f]).remove(0)
+    };
+    (0..functions).map(one).collect()
+}
+
+/// Arrays for the tests of what does not matter: ordinary and degenerate.
+fn samples(grid: &BoxGrid) -> [Vec<Vec<f64>>; 3] {
+    [waves(grid, 5), symmetric(grid), random_signs(&mut Random(3), grid.node_count(), 4)]
+}
+
+#[test]
+fn threads_do_not_matter() {
+    let grid = cube(24);
+    for arrays in samples(&grid) {
+        for (domain, kind) in
+            [(Domain::Box(grid.clone()), KINDS), (explicit(&grid), KINDS)].iter().flat_map(|(d, k)| k.map(|k| (d, k)))
+        {
+            let on = |threads: usize| {
+                let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+                pool.install(|| network(domain, &arrays, kind))
+            };
+            let one = on(1);
+            assert!(one.polygon_count() > 0);
+            assert!(on(2) == one && on(8) == one, "{kind:?}");
+        }
+    }
+}
+
+#[test]
+fn strides_do_not_matter() {
+    let grid = cube(6);
+    let domain = Domain::Box(grid.clone());
+    for arrays in samples(&grid) {
+        let n = arrays.len();
+        let mixed: Vec<f64> = (0..grid.node_count() * n).map(|i| arrays[i % n][i / n]).collect();
+        let functions: Vec<&[f64]> = (0..n).map(|f| &mixed[f..]).collect();
+        let values = Values { functions: &functions, stride: n };
+        for (domain, kind) in [(&domain, KINDS), (&explicit(&grid), KINDS)].iter().flat_map(|(d, k)| k.map(|k| (*d, k)))
+        {
+            let found = extract(domain, &values, kind, &mut Run::quiet()).unwrap();
+            assert!(found == network(domain, &arrays, kind), "{kind:?}");
+        }
+    }
+}
+
+#[test]
+fn boxes_agree_with_their_simplices_written_out() {
+    let grid = BoxGrid::new([7, 4, 5], Some([[-1.0, 0.0, 2.0], [1.0, 1.5, 2.5]])).unwrap();
+    for arrays in [waves(&grid, 6), random_signs(&mut Random(5), grid.node_count(), 3)] {
+        for kind in KINDS {
+            let (domain, mesh) = (Domain::Box(grid.clone()), explicit(&grid));
+            let (a, b) = (network(&domain, &arrays, kind), network(&mesh, &arrays, kind));
+            assert_eq!(a.active, b.active);
+            assert!(polygons(&a, &domain, &arrays) == polygons(&b, &mesh, &arrays), "{kind:?}");
+        }
+    }
+}
+
+/// A box whose nodes are mirrored along x has its cubes' parities changed if it has an even number of nodes there; with an odd number the
+/// tetrahedra are mirrored, and so must be the network.
+#[test]
+fn mirrored_boxes_have_mirrored_networks() {
+    let grid = cube(6);
+    let domain = Domain::Box(grid.clone());
+    for axis in 0..3 {
+        let mirror = |node: NodeId| {
+            let mut place = grid.place(node);
+            place[axis] = grid.cells()[axis] - place[axis];
+            grid.node(place)
+        };
+        for arrays in samples(&grid) {
+            let mirrored: Vec<Vec<f64>> =
+                arrays.iter().map(|a| (0..a.len()).map(|v| a[mirror(NodeId::of(v)).at()]).collect()).collect();
+            for kind in KINDS {
+                let (a, b) = (network(&domain, &arrays, kind), network(&domain, &mirrored, kind));
+                // Loops without direction: where no sign differs, the normal depends on the numbers of the simplices.
+                let plain = |network: &Network, arrays: &[Vec<f64>], mirror: &dyn Fn(NodeId) -> NodeId| {
+                    let mut all: Vec<_> = polygons(network, &domain, arrays)
+                        .into_iter()
+                        .map(|(mut points, set, _)| {
+                            points.iter_mut().for_each(|p| {
+                                p.iter_mut().for_each(|(n, _)| *n = mirror(*n));
+                                p.sort();
+                            });
+                            points.sort();
+                            (points, set)
+                        })
+                        .collect();
+                    all.sort();
+                    all
+                };
+                assert!(plain(&a, &arrays, &mirror) == plain(&b, &mirrored, &|n| n), "axis {axis}, {kind:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_order_of_functions_does_not_matter() {
+    let grid = cube(5);
+    let domain = Domain::Box(grid.clone());
+    for arrays in [waves(&grid, 5), symmetric(&grid), random_signs(&mut Random(9), grid.node_count(), 4)] {
+        let n = arrays.len();
+        // Function f of the permuted list is `order[f]`.
+        let order: Vec<usize> = (0..n).map(|f| (f * 3 + 1) % n).collect();
+        assert_eq!(order.iter().copied().collect::<std::collections::BTreeSet<_>>().len(), n);
+        let permuted: Vec<Vec<f64>> = order.iter().map(|&f| arrays[f].clone()).collect();
+        let (a, b) = (network(&domain, &arrays, Kind::Arrangement), network(&domain, &permuted, Kind::Arrangement));
+        assert_eq!(a.active, b.active);
+        let plain = |network: &Network, arrays: &[Vec<f64>], name: &dyn Fn(FunctionId) -> FunctionId| {
+            let mut all: Vec<_> = polygons(network, &domain, arrays)
+                .into_iter()
+                .map(|(mut points, set, _)| {
+                    points.sort();
+                    let mut set: Vec<FunctionId> = set.iter().map(|item| name(item.0)).collect();
+                    set.sort();
+                    (points, set)
+                })
+                .collect();
+            all.sort();
+            all
+        };
+        let name = |f: FunctionId| FunctionId::of(order[f.at()]);
+        assert!(plain(&a, &arrays, &|f| f) == plain(&b, &permuted, &name));
+    }
+    // Materials, where no two are equal at a node: nothing is tied.
+    let arrays = waves(&grid, 5);
+    let order = [3, 1, 4, 0, 2];
+    let permuted: Vec<Vec<f64>> = order.iter().map(|&f| arrays[f].clone()).collect();
+    let (a, b) = (network(&domain, &arrays, Kind::Interface), network(&domain, &permuted, Kind::Interface));
+    assert_eq!(
+        (a.active.clone(), a.vertex_count(), a.polygon_count()),
+        (b.active.clone(), b.vertex_count(), b.polygon_count())
+    );
+    let sorted = |network: &Network| {
+        let mut vertices = network.vertices.iter().map(|x| x.map(f64::to_bits)).collect::<Vec<_>>();
+        vertices.sort();
+        vertices
+    };
+    assert_eq!(sorted(&a), sorted(&b));
+}
+
+#[test]
+fn scaling_by_powers_of_two_does_not_matter() {
+    let grid = cube(8);
+    let domain = Domain::Box(grid.clone());
+    // Whole numbers and their like, so that nothing is lost in subnormal numbers.
+    for arrays in [symmetric(&grid), random_signs(&mut Random(4), grid.node_count(), 4)] {
+        for kind in KINDS {
+            let one = network(&domain, &arrays, kind);
+            for exponent in [-900, 900, -1060] {
+                // In two steps: 2^-1060 is not a normal number.
+                let (a, b) = (2f64.powi(exponent / 2), 2f64.powi(exponent - exponent / 2));
+                let scaled: Vec<Vec<f64>> = arrays.iter().map(|x| x.iter().map(|v| v * a * b).collect()).collect();
+                assert!(network(&domain, &scaled, kind) == one, "{kind:?}, 2^{exponent}");
+            }
+        }
+        // Each function by its own power.
+        let scaled: Vec<Vec<f64>> = arrays
+            .iter()
+            .enumerate()
+            .map(|(f, x)| x.iter().map(|v| v * 2f64.powi(if f % 2 == 0 { 900 } else { -900 })).collect())
+            .collect();
+        assert!(network(&domain, &scaled, Kind::Arrangement) == network(&domain, &arrays, Kind::Arrangement));
+    }
+}
+
+/// Loops from their lowest vertices on.
+fn loops(network: &Network) -> Vec<Vec<u32>> {
+    let rotated = |row: &[lapidary::base::VertexId]| {
+        let mut row: Vec<u32> = row.iter().map(|v| v.0).collect();
+        let least = (0..row.len()).min_by_key(|&i| row[i]).unwrap();
+        row.rotate_left(least);
+        row
+    };
+    network.polygons.rows().map(rotated).collect()
+}
+
+#[test]
+fn equal_opposite_and_zero_functions() {
+    let grid = cube(5);
+    let domain = Domain::Box(grid.clone());
+    let f = waves(&grid, 1).remove(0);
+    let one = network(&domain, std::slice::from_ref(&f), Kind::Arrangement);
+    let times = |k: f64| f.iter().map(|x| k * x).collect::<Vec<f64>>();
+    let many = network(&domain, &[f.clone(), f.clone(), times(-1.0), times(2.0), times(0.0)], Kind::Arrangement);
+    // Loops may start elsewhere.
+    assert!(loops(&one) == loops(&many) && one.vertices == many.vertices);
+    assert_eq!(many.sets.len(), 1);
+    let orientations: Vec<_> =
+        many.sets.row(0usize).iter().map(|item| (item.function.0, item.orientation.to_i8())).collect();
+    assert_eq!(orientations, [(0, 1), (1, 1), (2, -1), (3, 1)]);
+    assert!(many.vertex_functions.rows().all(|row| row.len() == 5));
+    // Equal materials: the lowest owns everything; two that cross, one of them twice, have the interface of the two.
+    let equal = network(&domain, &[f.clone(), f.clone()], Kind::Interface);
+    assert_eq!((equal.polygon_count(), equal.vertex_count()), (0, 0));
+    let twice = network(&domain, &[times(0.0), f.clone(), f.clone()], Kind::Interface);
+    let once = network(&domain, &[times(0.0), f.clone()], Kind::Interface);
+    assert!(loops(&twice) == loops(&once) && twice.sets == once.sets);
+    assert!(once.vertices == one.vertices);
+    // No functions, one material.
+    for (arrays, kind) in [(vec![], Kind::Arrangement), (vec![f.clone()], Kind::Interface)] {
+        assert_eq!(network(&domain, &arrays, kind).vertex_count(), 0);
+    }
+}
+
+#[test]
+fn bad_values_are_named() {
+    let grid = cube(3);
+    let mut arrays = waves(&grid, 3);
+    arrays[1][17] = f64::NAN;
+    arrays[2][5] = f64::INFINITY;
+    for (domain, kind) in
+        [(Domain::Box(grid.clone()), KINDS), (explicit(&grid), KINDS)].iter().flat_map(|(d, k)| k.map(|k| (d, k)))
+    {
+        let try_it = |arrays: &[Vec<f64>], stride: usize| {
+            let functions: Vec<&[f64]> = arrays.iter().map(Vec::as_slice).collect();
+            extract(domain, &Values { functions: &functions, stride }, kind, &mut Run::quiet())
+        };
+        let message = try_it(&arrays, 1).unwrap_err().message;
+        assert!(
+            message.contains("function 1") && message.contains("17") || message.contains("function 2"),
+            "{message}"
+        );
+        assert!(try_it(&[vec![0.0; 63]], 1).is_err());
+        assert!(try_it(&[vec![0.0; 64]], 2).is_err());
+        assert!(try_it(&[vec![0.0; 64]], 0).is_err());
+    }
+    let domain = Domain::Box(grid);
+    assert!(extract(&domain, &Values { functions: &[], stride: 1 }, Kind::Interface, &mut Run::quiet()).is_err());
 }
