@@ -21,7 +21,7 @@ use crate::cut::faces::AllVertices;
 use crate::cut::sections::{Piece, Section, edge_pieces};
 use std::cmp::Ordering;
 
-/// Faces in grid planes, by axis, then plane.
+/// Faces in grid planes, by axis, plane, then square.
 #[derive(Debug, Default)]
 pub struct Squares {
     /// Faces normal to axis `a` are `axis_faces[a]..axis_faces[a + 1]`.
@@ -250,10 +250,10 @@ impl Scene<'_> {
         }
         for (i, piece) in edges.iter().enumerate() {
             let beside = self.beside(p, piece.ends);
-            for (side, has_face) in [piece.left, piece.right].into_iter().enumerate().filter(|s| s.1) {
+            for (side, _) in [piece.left, piece.right].into_iter().enumerate().filter(|s| s.1) {
                 let (from, to) = (piece.ends[side], piece.ends[1 - side]);
                 let id = (2 * (chords.len() + i) + side) as u32;
-                let square = beside[side].filter(|_| has_face).and_then(|s| wanted.place(s));
+                let square = beside[side].and_then(|s| wanted.place(s));
                 half_edges.extend(square.map(|square| HalfEdge { from, to, id, square }));
             }
         }
