@@ -13,7 +13,7 @@
 //! N is off by at most 8Tδ from coordinates, 4 from products of rests, and 2⁻⁵⁰T per term from roundings of what is first order in
 //! the rests: T k + 4 with k = 8δ + (n + 16) 2⁻⁵⁰. The bounds of V6 and M48 follow from N's and those of their factors
 //! (s <= 3P, a² + b² + c² + s² <= 12P²), with the terms that are dropped; constants are rounded up. Without the rests, δ is
-//! larger by 0.51, and what it does to a term N Q of M48 is bounded by what was summed: 8Tδ Q + 24Pδ |N|, and of second order 192P²δ²;
+//! larger by 0.51, and what it does to a term N Q of M48 is bounded by what was summed: 8Tδ Q + 24Pδ |N|, and of second order 576P²δ²;
 //! of both factors the low halves are dropped, which loses at most (|N| + Q) 2⁻⁶⁴ + 1.
 
 // An axis indexes several arrays at once.
@@ -216,7 +216,7 @@ impl<'a> CellSums<'a> {
                 // Triangles are within the box.
                 let (size, delta) = (f64::min(2.0 * p, UNITS), 0.52 + k);
                 let first_order = delta * (8.0 * size * squares + 24.0 * p * areas);
-                let second_order = n * 400.0 * (delta * p) * (delta * p);
+                let second_order = n * 600.0 * (delta * p) * (delta * p);
                 (first_order + second_order) * TO_128 + (areas + squares) * TO_64 + n * 8.0
             };
             let err = err + self.plane_first_err[i];
