@@ -11,7 +11,7 @@
  * harmless by signs alone, in 1 and in 2, and CGAL's tests are asked about what it leaves open, about every 256th pair that it
  * decides, and in small cuts about all pairs.
  *
- * Over models of CGAL's data set (few and small ones; all, and more plane sets, with LAPIDARY_LONG: half an hour), and made-up
+ * Over models of CGAL's data set (few and small ones; all, and more plane sets, with LAPIDARY_LONG: ten minutes), and made-up
  * solids. LAPIDARY_PART=i/n, i from 0, takes every n-th model only, for several processes at once.
  */
 #include "check.h"

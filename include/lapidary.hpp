@@ -944,12 +944,14 @@ public:
         return k;
     }
 
-    cell_moments_t cell_moments() const
+    // Flags look at boundaries, too, and cost what cell_boundaries() does; without them their view is empty.
+    cell_moments_t cell_moments(bool with_flags = true) const
     {
         cell_moments_t m;
         check(lap_grid_cell_moments(get(), &m.volumes.count, &m.volumes.data, &m.fractions.data, &m.centroids.data,
-                                    &m.flags.data));
-        m.fractions.count = m.centroids.count = m.flags.count = m.volumes.count;
+                                    with_flags ? &m.flags.data : nullptr));
+        m.fractions.count = m.centroids.count = m.volumes.count;
+        m.flags.count = with_flags ? m.volumes.count : 0;
         return m;
     }
     second_moments_t cell_second_moments() const

@@ -9,6 +9,7 @@ mod solids;
 use common::*;
 use grid_reference::{Reference, inside, outside, whole};
 use lapidary::base::{CellId, FaceId, Run};
+use lapidary::grid::boundaries::{Boundaries, boundaries};
 use lapidary::grid::moments::{GridMoments, moments};
 use lapidary::grid::{FULL_CELL, GridCells, GridOptions, cut_grid};
 use solids::Random;
@@ -36,7 +37,7 @@ fn shape(g: &GridCells, f: FaceId) -> (u8, Vec<Vec<Bits>>) {
 type CellShape = (Vec<(u8, Vec<Vec<Bits>>, bool)>, Vec<u64>);
 
 /// The cells of each cut box as sets.
-fn cells(g: &GridCells, m: &GridMoments) -> Vec<(u32, Vec<CellShape>)> {
+fn cells(g: &GridCells, m: &GridMoments, walls: &Boundaries) -> Vec<(u32, Vec<CellShape>)> {
     let mut out = Vec::new();
     for (b, w) in g.cut_boxes.iter().zip(g.box_cells.windows(2)) {
         let mut members: Vec<CellShape> = (w[0]..w[1])
@@ -52,7 +53,7 @@ fn cells(g: &GridCells, m: &GridMoments) -> Vec<(u32, Vec<CellShape>)> {
                 faces.sort();
                 let c = c as usize;
                 let mut numbers = vec![m.cell_volume[c], m.cell_fraction[c]];
-                numbers.extend(m.cell_centroid[c].iter().chain(&m.boundary_area[c]).chain(&m.boundary_centroid[c]));
+                numbers.extend(m.cell_centroid[c].iter().chain(&walls.area[c]).chain(&walls.centroid[c]));
                 (faces, numbers.into_iter().map(f64::to_bits).collect())
             })
             .collect();
@@ -90,7 +91,8 @@ fn compare(name: &str, soup: &Soup, nodes: [&[f64]; 3]) {
         assert_eq!(g.cut_boxes, grid.cut_boxes, "{name}");
         assert_eq!(g.cell_count(), grid.cell_count(), "{name}");
         let (m, reference) = (moments(&g), moments(&grid));
-        for (a, b) in cells(&g, &m).iter().zip(&cells(&grid, &reference)) {
+        let (walls, theirs) = (boundaries(&g, &m), boundaries(&grid, &reference));
+        for (a, b) in cells(&g, &m, &walls).iter().zip(&cells(&grid, &reference, &theirs)) {
             assert_eq!(a, b, "{name}");
         }
         for (a, b) in faces(&g, &m).iter().zip(&faces(&grid, &reference)) {

@@ -2,7 +2,7 @@
 //! fault for every 4 KiB (DESIGN §12, "Memory"). So blocks of [`LARGE`] bytes or more are kept when freed and handed out again,
 //! up to [`KEPT`] bytes for the process, as long as somebody says that calls will follow ([`Keeper`]: every context is one);
 //! the last one to leave gives all of them back. Blocks of megabytes are mapped where huge pages fit, and ask for them:
-//! one page fault then brings 2 MiB, at a tenth of the cost per byte. When they grow, their pages move; nothing is copied.
+//! one page fault then brings 2 MiB. Blocks too large to be kept grow by moving their pages, not what is in them, and shrink in place.
 //!
 //! Smaller requests, and all of them on systems other than Linux, go to the system's allocator.
 //!
@@ -10,7 +10,7 @@
 //! that is kept holds the address of the next one of its class in its first word. The lock is only ever tried: where
 //! another thread has it (or had it when the process forked), blocks are mapped and unmapped directly.
 //!
-//! Cost: some 20 ns for a kept block; address space is rounded up by an eighth and a huge page at most, memory by one page.
+//! Cost: some 20 ns for a kept block; address space is rounded up by an eighth at most, memory by two pages.
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::Mutex;
@@ -93,11 +93,6 @@ fn bytes_of(class: usize) -> usize {
     (9 + class % 8) << (class / 8 + LARGE_BITS as usize - 4)
 }
 
-/// The bytes of the mapping that holds a block of a class: one page more than the block needs, in huge pages if it has any.
-fn mapped(bytes: usize) -> usize {
-    if bytes >= HUGE { (bytes + PAGE).next_multiple_of(HUGE) } else { bytes + PAGE }
-}
-
 /// A kept block of a class; for want of one, the front of one that is up to twice as large.
 fn take(class: usize, bytes: usize) -> Option<*mut u8> {
     let mut store = STORE.try_lock().ok()?;
@@ -108,13 +103,20 @@ fn take(class: usize, bytes: usize) -> Option<*mut u8> {
     let found = bytes_of(from);
     store.bytes -= found;
     drop(store);
-    shrink(block, found, bytes);
+    if found > bytes {
+        unmap(page_of(block).wrapping_add(bytes + PAGE), found - bytes);
+    }
     Some(block)
+}
+
+/// Whether blocks of a size are kept as long as there is room: then growing leaves one for the next call, which will grow likewise.
+fn worth_keeping(size: usize) -> bool {
+    size <= KEPT && KEEPERS.load(Ordering::Relaxed) != 0
 }
 
 /// Whether the block is kept.
 fn keep(block: *mut u8, class: usize, bytes: usize) -> bool {
-    if KEEPERS.load(Ordering::Relaxed) == 0 {
+    if !worth_keeping(bytes) {
         return false;
     }
     let Ok(mut store) = STORE.try_lock() else { return false };
@@ -137,7 +139,7 @@ pub fn give_all_back() {
             let block = store.first[at] as *mut u8;
             // SAFETY: as in `take`; nobody refers to a kept block.
             store.first[at] = unsafe { block.cast::<usize>().read() };
-            unmap(page_of(block), mapped(bytes));
+            unmap(page_of(block), bytes + PAGE);
         }
     }
     store.bytes = 0;
@@ -148,17 +150,11 @@ fn page_of(block: *mut u8) -> *mut u8 {
     block.wrapping_sub(block as usize % PAGE)
 }
 
-/// Gives back what a block of `bytes` does not need of one of `found`.
-fn shrink(block: *mut u8, found: usize, bytes: usize) {
-    if mapped(found) > mapped(bytes) {
-        unmap(page_of(block).wrapping_add(mapped(bytes)), mapped(found) - mapped(bytes));
-    }
-}
-
-/// Maps a zeroed block, somewhere in the first of its pages; null if there is no memory.
-fn map(bytes: usize) -> *mut u8 {
-    let whole = mapped(bytes);
-    let slack = if bytes >= HUGE { HUGE } else { 0 };
+/// Maps a zeroed block, somewhere in the first of its pages, one more than it needs; null if there is no memory. `size` is what
+/// will be used of it.
+fn map(bytes: usize, size: usize) -> *mut u8 {
+    let slack = if size >= HUGE { HUGE } else { 0 };
+    let whole = bytes + PAGE;
     let (read_write, private) = (libc::PROT_READ | libc::PROT_WRITE, libc::MAP_PRIVATE | libc::MAP_ANONYMOUS);
     // SAFETY: a new anonymous mapping, wherever the system puts it, touches nothing else.
     let start = unsafe { libc::mmap(std::ptr::null_mut(), whole + slack, read_write, private, -1, 0) };
@@ -175,36 +171,53 @@ fn map(bytes: usize) -> *mut u8 {
         if slack > before {
             unmap(start.wrapping_add(whole), slack - before);
         }
-        // All of it, so that it stays one mapping in the system's books and can be moved.
-        #[cfg(target_os = "linux")]
-        // SAFETY: advice on our own mapping; whether it is taken does not matter.
-        unsafe {
-            libc::madvise(start.cast(), whole, libc::MADV_HUGEPAGE);
-        }
+        ask_for_huge_pages(start, size);
     }
     start.wrapping_add(MAPPED.fetch_add(STAGGER, Ordering::Relaxed) % PAGE)
 }
 
-/// A block of `bytes` made from the pages of one of `old` bytes, both with huge pages; null if that is not possible.
-#[cfg(target_os = "linux")]
-fn grow(block: *mut u8, old: usize, bytes: usize) -> *mut u8 {
-    let room = map(bytes);
-    if room.is_null() {
-        return room;
+/// Asks for huge pages as far as `size` fills them: for the rest, one might hold a hundred times what is used of it.
+fn ask_for_huge_pages(start: *mut u8, size: usize) {
+    #[cfg(target_os = "linux")]
+    // SAFETY: advice on our own mapping; whether it is taken does not matter.
+    unsafe {
+        libc::madvise(start.cast(), size & !(HUGE - 1), libc::MADV_HUGEPAGE);
     }
-    let (from, to) = (page_of(block), page_of(room));
-    let how = libc::MREMAP_MAYMOVE | libc::MREMAP_FIXED;
-    // SAFETY: both are our own mappings of these lengths; nobody refers to the room, which the moved pages replace.
-    let moved = unsafe { libc::mremap(from.cast(), mapped(old), mapped(bytes), how, to) };
-    if moved == libc::MAP_FAILED {
-        unmap(to, mapped(bytes));
-        return std::ptr::null_mut();
-    }
-    to.wrapping_add(block as usize % PAGE)
 }
 
+/// A block of megabytes, made larger or smaller without copying: its front keeps its pages. What is cut off goes back to the system; what grows
+/// moves to where huge pages fit as before. Null if there is no memory: the block is as it was.
+///
+/// # Safety
+/// `block` is one of ours for a request of `old` bytes, [`HUGE`] or more, and is not used any more if the result is not null.
+#[cfg(target_os = "linux")]
+unsafe fn resize(block: *mut u8, old: usize, size: usize) -> *mut u8 {
+    let (have, want) = (class(old).1, class(size).1);
+    let start = page_of(block);
+    if want <= have {
+        if want < have {
+            unmap(start.wrapping_add(want + PAGE), have - want);
+        }
+        return block;
+    }
+    let moved = page_of(map(want, size));
+    if moved.is_null() {
+        return moved;
+    }
+    let flags = libc::MREMAP_MAYMOVE | libc::MREMAP_FIXED;
+    // SAFETY: both are whole mappings of ours; the new one, which nobody refers to yet, is replaced by the old one's pages.
+    let done = unsafe { libc::mremap(start.cast(), have + PAGE, have + PAGE, flags, moved.cast::<libc::c_void>()) };
+    if done == libc::MAP_FAILED {
+        unmap(moved, want + PAGE);
+        return std::ptr::null_mut();
+    }
+    ask_for_huge_pages(moved, size);
+    moved.wrapping_add(block as usize % PAGE)
+}
+
+/// Elsewhere there are no blocks.
 #[cfg(not(target_os = "linux"))]
-fn grow(_: *mut u8, _: usize, _: usize) -> *mut u8 {
+unsafe fn resize(_: *mut u8, _: usize, _: usize) -> *mut u8 {
     std::ptr::null_mut()
 }
 
@@ -221,7 +234,7 @@ unsafe impl GlobalAlloc for Blocks {
             return unsafe { System.alloc(layout) };
         }
         let (class, bytes) = class(layout.size());
-        take(class, bytes).unwrap_or_else(|| map(bytes))
+        take(class, bytes).unwrap_or_else(|| map(bytes, layout.size()))
     }
 
     unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
@@ -234,7 +247,7 @@ unsafe impl GlobalAlloc for Blocks {
                 unsafe { block.write_bytes(0, layout.size()) };
                 block
             }
-            None => map(bytes),
+            None => map(bytes, layout.size()),
         }
     }
 
@@ -244,35 +257,26 @@ unsafe impl GlobalAlloc for Blocks {
         }
         let (class, bytes) = class(layout.size());
         if !keep(block, class, bytes) {
-            unmap(page_of(block), mapped(bytes));
+            unmap(page_of(block), bytes + PAGE);
         }
     }
 
     unsafe fn realloc(&self, block: *mut u8, layout: Layout, size: usize) -> *mut u8 {
         let new = unsafe { Layout::from_size_align_unchecked(size, layout.align()) };
-        if !is_block(&layout) && !is_block(&new) {
-            return unsafe { System.realloc(block, layout, size) };
-        }
-        if is_block(&layout) && is_block(&new) {
-            let (old, bytes) = (class(layout.size()).1, class(size).1);
-            if bytes <= old {
-                shrink(block, old, bytes);
-                return block;
-            }
-            if old >= HUGE {
-                let grown = grow(block, old, bytes);
-                if !grown.is_null() {
-                    return grown;
+        match (is_block(&layout), is_block(&new)) {
+            (false, false) => unsafe { System.realloc(block, layout, size) },
+            (true, true) if class(size).0 == class(layout.size()).0 => block,
+            (true, true) if layout.size() >= HUGE && !worth_keeping(layout.size()) => unsafe {
+                resize(block, layout.size(), size)
+            },
+            _ => unsafe {
+                let moved = self.alloc(new);
+                if !moved.is_null() {
+                    std::ptr::copy_nonoverlapping(block, moved, layout.size().min(size));
+                    self.dealloc(block, layout);
                 }
-            }
-        }
-        unsafe {
-            let moved = self.alloc(new);
-            if !moved.is_null() {
-                std::ptr::copy_nonoverlapping(block, moved, layout.size().min(size));
-                self.dealloc(block, layout);
-            }
-            moved
+                moved
+            },
         }
     }
 }
@@ -288,6 +292,22 @@ mod tests {
             assert!(bytes >= size && bytes - size <= size / 8 && bytes % PAGE == 0, "{size}");
             assert_eq!(bytes, bytes_of(at));
             assert_eq!(class(bytes), (at, bytes));
+        }
+    }
+
+    #[test]
+    fn what_a_block_holds_stays_when_it_grows_or_shrinks() {
+        let mark = |i: usize| (i / 4096) as u8 ^ 0x5A;
+        let mut bytes: Vec<u8> = Vec::new();
+        let mut length = 0;
+        for size in [KEPT + 1, 2 * KEPT + 77, 5 * KEPT / 2, KEPT + 3 * HUGE, KEPT + 5, 2 * KEPT] {
+            bytes.truncate(size);
+            bytes.shrink_to(size);
+            bytes.reserve_exact(size - bytes.len());
+            assert!((0..length.min(size)).step_by(4096).all(|i| bytes[i] == mark(i)), "size {size}");
+            bytes.extend((bytes.len()..size).map(mark));
+            assert!((bytes.as_ptr() as usize).is_multiple_of(LINE));
+            length = size;
         }
     }
 

@@ -66,6 +66,8 @@ ids! {
     BoxId,
     /// A node of a block of a rectilinear grid: i + (nx + 1)·(j + (ny + 1)·k); or a node of the domain of a network.
     NodeId,
+    /// A square of one plane of a rectilinear grid: i + n·j, i along the lower of the plane's two axes, which has n boxes.
+    SquareId,
     /// A connected region of fluid in a block of a grid.
     RegionId,
     /// A simplex of the domain of a network: a tetrahedron, or a triangle in the plane.

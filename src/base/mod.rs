@@ -6,6 +6,7 @@ pub mod csr;
 pub mod error;
 pub mod ids;
 pub mod parallel;
+pub mod processor;
 pub mod run;
 pub mod union_find;
 

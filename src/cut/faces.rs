@@ -8,9 +8,7 @@
 
 use super::classify::KnifeId;
 use super::lines::{LineKnife, Lines};
-use super::sections::{
-    Carrier, LocalMap, Piece, PlaneContents, Section, SectionScratch, projection_axes, touching_is_inside,
-};
+use super::sections::{Carrier, Piece, PlaneContents, Section, SectionScratch, projection_axes, touching_is_inside};
 use super::surface::Surface;
 use crate::base::parallel::{Pool, each_part, offsets};
 use crate::base::{Csr, EdgeId, Error, Result, VertexId};
@@ -138,7 +136,8 @@ pub fn section_faces(
                 }
                 map.prepare(all.origins.len());
                 section.build_stars(all.surface, map);
-                let outcome = faces_of(all, contents.vertices.row(k), section, map, keep_graphs, &mut out);
+                let bare = contents.vertices.row(k).iter().copied().filter(|&v| map.get(v).is_none());
+                let outcome = faces_of(all, bare, section, keep_graphs, &mut out);
                 map.clear(section);
                 section.vertices.clear();
                 outcome?;
@@ -169,12 +168,12 @@ fn add_line(lines: &Lines, l: usize, knife: &LineKnife, first_line_edge: u32, pi
     }
 }
 
-/// Adds the faces of one section with its lines. `vertices`: the mesh vertices on the plane that may touch a face.
+/// Adds the faces of one section with its lines. `bare`: the mesh vertices on the plane that no
+/// piece ends at, which may touch a face.
 pub fn faces_of(
     all: &AllVertices,
-    vertices: &[VertexId],
+    bare: impl Iterator<Item = VertexId>,
     section: &Section,
-    map: &LocalMap,
     keep_graph: bool,
     out: &mut SectionFaces,
 ) -> Result<()> {
@@ -187,11 +186,7 @@ pub fn faces_of(
             section.target(h).0
         ))
     })?;
-    let touching: Vec<VertexId> = vertices
-        .iter()
-        .copied()
-        .filter(|&v| map.get(v).is_none() && touching_is_inside(surface, v, section.knife))
-        .collect();
+    let touching: Vec<VertexId> = bare.filter(|&v| touching_is_inside(surface, v, section.knife)).collect();
     let axes = projection_axes(&surface.knives.plane(section.knife).n);
     let seen = Seen { all, axes };
     let is_line = |h: u32| matches!(section.pieces[h as usize / 2].carrier, Carrier::Line { .. });

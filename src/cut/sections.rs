@@ -108,7 +108,7 @@ impl Section {
     }
 
     /// Numbers the vertices and gathers the stars, in no order yet. `map` is left filled.
-    pub fn gather_stars(&mut self, map: &mut LocalMap) {
+    fn gather_stars(&mut self, map: &mut LocalMap) {
         map.clear(self);
         self.vertices.clear();
         for piece in &self.pieces {

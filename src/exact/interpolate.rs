@@ -13,6 +13,7 @@
 
 use super::bounded::U;
 use super::double_double::{fast_two_sum, two_prod, two_sum};
+use super::rows::Row;
 use super::types::Plane;
 
 const U2: f64 = U * U;
@@ -116,9 +117,8 @@ fn nearest(from: f64, rest: Pair, err: f64) -> Option<f64> {
 /// With values v, w at the ends, t = v/(v − w), and x = a + (b − a) t. The errors E_v of v and E of v − w move t by at most
 /// (E_v + |t| E)/|v − w| to first order; twice that is taken, and 32 u² |t| for the quotient.
 pub fn on_edge(a: &[f64; 3], b: &[f64; 3], p: &Plane, open: &[bool; 3]) -> [Option<f64>; 3] {
-    let mut out = [None; 3];
     if !(in_range(a) && in_range(b) && plane_in_range(p)) {
-        return out;
+        return [None; 3];
     }
     let unit = unit_axis(p);
     let ((v, ev), (w, ew)) = (value(p, unit, a), value(p, unit, b));
@@ -127,6 +127,40 @@ pub fn on_edge(a: &[f64; 3], b: &[f64; 3], p: &Plane, open: &[bool; 3]) -> [Opti
         Some(axis) => two_sum(p.n[axis] * a[axis], -(p.n[axis] * b[axis])),
         None => sum(v, (-w.0, -w.1)),
     };
+    along(a, b, (v, ev), (full, ew), w, open)
+}
+
+/// The same where a function vanishes whose values at the ends are known: exactly, or as exact differences.
+#[inline(always)]
+pub fn between(a: &[f64; 3], b: &[f64; 3], row: &Row<'_, 2>, open: &[bool; 3]) -> [Option<f64>; 3] {
+    let [v, w] = row_values(row);
+    if !(in_range(a) && in_range(b) && v.0.abs() < LARGEST && w.0.abs() < LARGEST) {
+        return [None; 3];
+    }
+    along(a, b, (v, 0.0), (sum(v, (-w.0, -w.1)), 0.0), w, open)
+}
+
+/// The values of a row: exact pairs (or infinite).
+#[inline(always)]
+fn row_values<const M: usize>(row: &Row<'_, M>) -> [Pair; M] {
+    match row {
+        Row::Values(v) => v.map(|x| (x, 0.0)),
+        Row::Difference(f, g) => std::array::from_fn(|i| difference(f[i], g[i])),
+        Row::Ones => [(1.0, 0.0); M],
+    }
+}
+
+/// Points a + (b − a) v/(v − w); `ev`, `ew`: the errors of v and w.
+#[inline(always)]
+fn along(
+    a: &[f64; 3],
+    b: &[f64; 3],
+    (v, ev): (Pair, f64),
+    (full, ew): (Pair, f64),
+    w: Pair,
+    open: &[bool; 3],
+) -> [Option<f64>; 3] {
+    let mut out = [None; 3];
     let size = full.0.abs();
     // Otherwise the bounds would not be of first order.
     if !(size > LEAST && (ev + ew) < size * U) {
@@ -151,13 +185,27 @@ pub fn on_edge(a: &[f64; 3], b: &[f64; 3], p: &Plane, open: &[bool; 3]) -> [Opti
 /// PᵢQⱼ − PⱼQᵢ is off by 12 u² (|PᵢQⱼ| + |PⱼQᵢ|) and by what the values' errors do to it; the rest follows by first-order
 /// propagation, twice.
 pub fn in_triangle(t: &[[f64; 3]; 3], p: &Plane, q: &Plane, open: &[bool; 3]) -> [Option<f64>; 3] {
-    let mut out = [None; 3];
     if !(t.iter().all(in_range) && plane_in_range(p) && plane_in_range(q)) {
-        return out;
+        return [None; 3];
     }
     let (unit_p, unit_q) = (unit_axis(p), unit_axis(q));
     let vp: [(Pair, f64); 3] = std::array::from_fn(|i| value(p, unit_p, &t[i]));
     let vq: [(Pair, f64); 3] = std::array::from_fn(|i| value(q, unit_q, &t[i]));
+    weighted(t, &vp, &vq, open)
+}
+
+/// The same where two functions vanish whose values at the corners are known.
+pub fn within(t: &[[f64; 3]; 3], rows: &[Row<'_, 3>; 2], open: &[bool; 3]) -> [Option<f64>; 3] {
+    let [vp, vq] = [0, 1].map(|i| row_values(&rows[i]).map(|v| (v, 0.0)));
+    if !(t.iter().all(in_range) && vp.iter().chain(&vq).all(|v| v.0.0.abs() < LARGEST)) {
+        return [None; 3];
+    }
+    weighted(t, &vp, &vq, open)
+}
+
+/// From the values at the corners, with their errors.
+fn weighted(t: &[[f64; 3]; 3], vp: &[(Pair, f64); 3], vq: &[(Pair, f64); 3], open: &[bool; 3]) -> [Option<f64>; 3] {
+    let mut out = [None; 3];
     let weight = |i: usize, j: usize| {
         let (l, r) = (product(vp[i].0, vq[j].0), product(vp[j].0, vq[i].0));
         let moved = vp[i].1 * vq[j].0.0.abs()

@@ -4,6 +4,7 @@
 //! Every predicate equals what exact rational arithmetic gives, for any finite input. Read [`ring`] first (one
 //! formula, many number types), then [`tiers`] and [`predicates`].
 
+pub mod barycentric;
 pub mod big;
 pub mod bounded;
 pub mod counters;
@@ -11,6 +12,7 @@ pub mod cyclic;
 pub mod double_double;
 pub mod filter;
 pub mod fixed;
+pub mod in_simplex;
 mod interpolate;
 pub mod lift;
 pub mod planes;
@@ -27,13 +29,14 @@ pub mod types;
 
 pub use cyclic::sort_cyclic;
 pub use filter::PlaneFilter;
+pub use in_simplex::{InTetrahedron, InTriangle, OnEdge, compare_zeros};
 pub use planes::{Grouping, group};
 pub use predicates::{
     collinear, compare_coordinate, compare_on_edge, compare_projected, compare_rounded, cross_dot_cross, determinant,
     dot, orient3d, side, support_side, triangle_determinant, turn_projected,
 };
 pub use residue::Residue;
-pub use round::{approx, rational, round, round_rational};
+pub use round::{approx, rational, round, round_rational, round_symbolic};
 pub use rows::{Row, determinant_of_rows};
 pub use sign::Sign;
 pub use types::{Approx, Direction, Plane, Point, Support};

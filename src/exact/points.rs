@@ -5,6 +5,7 @@
 //! Invariant: weights, coordinates and the denominator W share one positive scale, and W may have either sign. W = 0 only
 //! where the caller's carriers do not meet in one point.
 
+use super::interpolate;
 use super::ring::{Kernel, Ring, cross, difference, dot, plane_value};
 use super::types::{Plane, Point, Support};
 
@@ -57,8 +58,37 @@ pub enum Shape<N> {
     Two([N; 2], [[N; 3]; 2]),
     /// The same with three.
     Three([N; 3], [[N; 3]; 3]),
+    Four([N; 4], [[N; 3]; 4]),
     /// Homogeneous coordinates X, Y, Z, W.
     Meet([N; 3], N),
+}
+
+/// A point that can be evaluated in any ring.
+pub trait Symbolic {
+    fn shape<K: Kernel>(&self, k: &K) -> Shape<K::N>;
+    /// A coordinate that is known as a quotient of two input numbers without any geometry.
+    fn plain(&self, axis: usize) -> Option<(f64, f64)>;
+    /// The correctly rounded coordinates that are wanted and that a cheap evaluation settles.
+    fn quick(&self, open: &[bool; 3]) -> [Option<f64>; 3];
+}
+
+impl Symbolic for Point {
+    #[inline]
+    fn shape<K: Kernel>(&self, k: &K) -> Shape<K::N> {
+        shape(k, self)
+    }
+    #[inline]
+    fn plain(&self, axis: usize) -> Option<(f64, f64)> {
+        plain(self, axis)
+    }
+    #[inline]
+    fn quick(&self, open: &[bool; 3]) -> [Option<f64>; 3] {
+        match self {
+            Point::EdgePlane { a, b, p } => interpolate::on_edge(a, b, p, open),
+            Point::TrianglePlanes { t, p, q } => interpolate::in_triangle(t, p, q, open),
+            _ => [None; 3],
+        }
+    }
 }
 
 pub fn shape<K: Kernel>(k: &K, x: &Point) -> Shape<K::N> {
@@ -105,6 +135,7 @@ pub fn denominator<K: Kernel>(k: &K, s: &Shape<K::N>) -> K::N {
         Shape::One(_) => k.one(),
         Shape::Two(w, _) => w[0].plus(&w[1]),
         Shape::Three(w, _) => w[0].plus(&w[1]).plus(&w[2]),
+        Shape::Four(w, _) => w[0].plus(&w[1]).plus(&w[2]).plus(&w[3]),
         Shape::Meet(_, w) => w.clone(),
     }
 }
@@ -116,13 +147,18 @@ pub fn numerator<N: Ring>(s: &Shape<N>, axis: usize) -> N {
         Shape::One(c) => c[axis].clone(),
         Shape::Two(w, c) => w[0].times(&c[0][axis]).plus(&w[1].times(&c[1][axis])),
         Shape::Three(w, c) => w[0].times(&c[0][axis]).plus(&w[1].times(&c[1][axis])).plus(&w[2].times(&c[2][axis])),
+        Shape::Four(w, c) => w[0]
+            .times(&c[0][axis])
+            .plus(&w[1].times(&c[1][axis]))
+            .plus(&w[2].times(&c[2][axis]))
+            .plus(&w[3].times(&c[3][axis])),
         Shape::Meet(x, _) => x[axis].clone(),
     }
 }
 
 /// X, Y, Z, W.
-pub fn homogeneous<K: Kernel>(k: &K, x: &Point) -> [K::N; 4] {
-    let s = shape(k, x);
+pub fn homogeneous<K: Kernel>(k: &K, x: &impl Symbolic) -> [K::N; 4] {
+    let s = x.shape(k);
     [numerator(&s, 0), numerator(&s, 1), numerator(&s, 2), denominator(k, &s)]
 }
 
@@ -135,6 +171,10 @@ pub fn value_at<K: Kernel>(k: &K, s: &Support, x: &Point) -> [K::N; 2] {
         Shape::One(c) => value(&f, c),
         Shape::Two(w, c) => w[0].times(&value(&f, &c[0])).plus(&w[1].times(&value(&f, &c[1]))),
         Shape::Three(w, c) => dot(w, &[value(&f, &c[0]), value(&f, &c[1]), value(&f, &c[2])]),
+        Shape::Four(w, c) => {
+            let v = |i: usize| w[i].times(&value(&f, &c[i]));
+            v(0).plus(&v(1)).plus(&v(2)).plus(&v(3))
+        }
         Shape::Meet(x, w) => match &f {
             Form::Plane([a, b, c, d]) => a.times(&x[0]).plus(&b.times(&x[1])).plus(&c.times(&x[2])).plus(&d.times(w)),
             Form::Triangle(n, a) => dot(n, &std::array::from_fn(|i| x[i].minus(&a[i].times(w)))),

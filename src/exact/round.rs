@@ -14,9 +14,8 @@ use super::big::BigKernel;
 use super::bounded::{Bounded, BoundedKernel, U};
 use super::counters::{Predicate, Tier, count};
 use super::double_double::{DoubleDouble, DoubleDoubleKernel};
-use super::interpolate;
 use super::lift::Scan;
-use super::points::{denominator, homogeneous, numerator, plain, shape};
+use super::points::{Symbolic, denominator, homogeneous, numerator, plain};
 use super::ring::{Expression, Kernel, Ring};
 use super::tiers::exact_sign;
 use super::types::{Approx, Point};
@@ -63,10 +62,16 @@ pub fn round(x: &Point) -> [f64; 3] {
     if let Point::Vertex(v) = x {
         return v.map(|c| c + 0.0);
     }
+    round_symbolic(x)
+}
+
+/// The same for any symbolic point.
+#[inline]
+pub fn round_symbolic(x: &impl Symbolic) -> [f64; 3] {
     let mut out = [0.0; 3];
     let mut open = [true; 3];
     for i in 0..3 {
-        if let Some((n, d)) = plain(x, i) {
+        if let Some((n, d)) = x.plain(i) {
             count(Predicate::Rounding, Tier::Filter);
             // Adding +0 turns -0 into +0 and leaves everything else alone.
             out[i] = n / d + 0.0;
@@ -76,12 +81,7 @@ pub fn round(x: &Point) -> [f64; 3] {
     if open == [false; 3] {
         return out;
     }
-    let quick = match x {
-        Point::EdgePlane { a, b, p } => interpolate::on_edge(a, b, p, &open),
-        Point::TrianglePlanes { t, p, q } => interpolate::in_triangle(t, p, q, &open),
-        _ => [None; 3],
-    };
-    for (i, value) in quick.into_iter().enumerate() {
+    for (i, value) in x.quick(&open).into_iter().enumerate() {
         if let Some(value) = value {
             count(Predicate::Rounding, Tier::Bounded);
             out[i] = value + 0.0;
@@ -91,17 +91,24 @@ pub fn round(x: &Point) -> [f64; 3] {
     if open == [false; 3] {
         return out;
     }
-    let s = shape(&DoubleDoubleKernel, x);
+    round_open(x, &open, &mut out);
+    out
+}
+
+/// What the quick evaluation left open.
+#[cold]
+#[inline(never)]
+fn round_open(x: &impl Symbolic, open: &[bool; 3], out: &mut [f64; 3]) {
+    let s = x.shape(&DoubleDoubleKernel);
     let w = denominator(&DoubleDoubleKernel, &s);
     for i in 0..3 {
         if open[i] {
             out[i] = round_coordinate(x, i, &numerator(&s, i), &w) + 0.0;
         }
     }
-    out
 }
 
-fn round_coordinate(x: &Point, axis: usize, n: &DoubleDouble, w: &DoubleDouble) -> f64 {
+fn round_coordinate(x: &impl Symbolic, axis: usize, n: &DoubleDouble, w: &DoubleDouble) -> f64 {
     if let Some((low, high)) = interval(n, w) {
         if low == high {
             count(Predicate::Rounding, Tier::Bounded);
@@ -133,18 +140,18 @@ fn interval(n: &DoubleDouble, w: &DoubleDouble) -> Option<(f64, f64)> {
 }
 
 /// 2X - (low + high) W, and W.
-struct Midpoint<'a> {
-    x: &'a Point,
+struct Midpoint<'a, P> {
+    x: &'a P,
     axis: usize,
     low: f64,
     high: f64,
 }
 
-impl Expression<2> for Midpoint<'_> {
+impl<P: Symbolic> Expression<2> for Midpoint<'_, P> {
     const PREDICATE: Predicate = Predicate::Rounding;
     #[inline]
     fn eval<K: Kernel>(&self, k: &K) -> [K::N; 2] {
-        let s = shape(k, self.x);
+        let s = self.x.shape(k);
         let (n, w) = (numerator(&s, self.axis), denominator(k, &s));
         let m = k.coordinate(self.low).plus(&k.coordinate(self.high));
         [n.plus(&n).minus(&m.times(&w)), w]
@@ -153,33 +160,33 @@ impl Expression<2> for Midpoint<'_> {
 
 /// Which side of the midpoint of two neighbouring doubles the coordinate is on. Double-double could not tell, so
 /// the weaker bound is not asked.
-fn sign_of_midpoint(x: &Point, axis: usize, low: f64, high: f64) -> Sign {
+fn sign_of_midpoint(x: &impl Symbolic, axis: usize, low: f64, high: f64) -> Sign {
     exact_sign(&Midpoint { x, axis, low, high })
 }
 
-struct Numerator<'a>(&'a Point, usize);
+struct Numerator<'a, P>(&'a P, usize);
 
-impl Expression<1> for Numerator<'_> {
+impl<P: Symbolic> Expression<1> for Numerator<'_, P> {
     const PREDICATE: Predicate = Predicate::Rounding;
     #[inline]
     fn eval<K: Kernel>(&self, k: &K) -> [K::N; 1] {
-        [numerator(&shape(k, self.0), self.1)]
+        [numerator(&self.0.shape(k), self.1)]
     }
 }
 
 /// Numerator, denominator, and the power of two to multiply their quotient with.
-fn exact_quotient(x: &Point, axis: usize) -> (Integer, Integer, i32) {
+fn exact_quotient(x: &impl Symbolic, axis: usize) -> (Integer, Integer, i32) {
     let scan = Scan::new();
-    shape(&scan, x);
+    x.shape(&scan);
     let k = BigKernel { e: scan.exponent() };
-    let s = shape(&k, x);
+    let s = x.shape(&k);
     (numerator(&s, axis), denominator(&k, &s), k.e)
 }
 
 /// Exact coordinates, in lowest terms. Zeros where the carriers do not meet in one point.
-pub fn rational(x: &Point) -> [Rational; 3] {
+pub fn rational(x: &impl Symbolic) -> [Rational; 3] {
     let scan = Scan::new();
-    shape(&scan, x);
+    x.shape(&scan);
     let k = BigKernel { e: scan.exponent() };
     let [a, b, c, w] = homogeneous(&k, x);
     if w.is_zero() {

@@ -18,13 +18,12 @@ use super::points::Points;
 use super::squares::Squares;
 use super::touched::Touched;
 use super::voids;
-use crate::base::{Csr, Error, FaceId, Result, TriangleId, VertexId};
+use crate::base::{Csr, Error, FaceId, Result, TriangleId, VertexId, parallel};
 use crate::complex::data::origin_point;
 use crate::complex::{HalfFace, SupportId, radial};
 use crate::exact::{self, Direction, Plane, Point, Sign};
 use crate::mesh::TriMesh;
 use crate::mesh::volume::volume_signs;
-use rayon::prelude::*;
 use std::cmp::Ordering;
 
 /// The cells of all touched boxes, in order.
@@ -86,10 +85,12 @@ impl Faces<'_> {
 /// Sorts the half-faces by touched box.
 pub fn by_box(lattice: &Lattice, pieces: &Pieces, squares: &Squares, touched: &Touched) -> Csr<HalfFace> {
     let walls = pieces.triangle.len();
+    // Once, since positions are walked twice.
+    let ranks: Vec<u32> = pieces.in_box.iter().map(|&b| touched.rank(lattice.box_at(b)) as u32).collect();
     Csr::from_positions(touched.boxes.len(), walls + squares.sides.len(), |range| {
         range.map(FaceId::of).flat_map(|face| {
-            let sides = match pieces.in_box.get(face.at()) {
-                Some(&b) => [Some(touched.rank(lattice.box_at(b))), None],
+            let sides = match ranks.get(face.at()) {
+                Some(&b) => [Some(b as usize), None],
                 None => squares.sides[face.at() - walls].map(|side| (side < FULL_CELL).then(|| side.at())),
             };
             let half_face = move |(front, side): (usize, Option<usize>)| Some((side?, HalfFace::new(face, front == 1)));
@@ -102,17 +103,18 @@ const BOXES: usize = 4096;
 
 pub fn cells(faces: &Faces) -> Result<Cells> {
     let count = faces.touched.boxes.len();
-    let parts: Vec<Result<Cells>> = (0..count.div_ceil(BOXES))
-        .into_par_iter()
-        .map_init(Scratch::default, |scratch, part| {
-            let mut out = Cells { box_cells: vec![0], cell_shells: vec![0], ..Default::default() };
-            for b in part * BOXES..count.min((part + 1) * BOXES) {
-                scratch.cells_of_box(faces, b, &mut out)?;
-                out.box_cells.push(out.cell_shells.len() as u32 - 1);
-            }
-            Ok(out)
-        })
-        .collect();
+    let parts: Vec<Result<Cells>> = parallel::map_ranges(count, BOXES, |range| {
+        let mut out = Cells { box_cells: vec![0], cell_shells: vec![0], ..Default::default() };
+        let mut scratch = Scratch::default();
+        for b in range {
+            scratch.cells_of_box(faces, b, &mut out)?;
+            out.box_cells.push(out.cell_shells.len() as u32 - 1);
+        }
+        Ok(out)
+    });
+    if parts.len() == 1 {
+        return parts.into_iter().next().expect("one part");
+    }
     let mut all = Cells { box_cells: vec![0], cell_shells: vec![0], ..Default::default() };
     all.shell_faces.items.reserve_exact(faces.of_box.items.len());
     for part in parts {

@@ -54,7 +54,7 @@ pub struct GridCells {
     /// Faces `0..wall_triangle.len()` are walls, by rising triangle: the triangle they lie on and the one cell behind them.
     pub wall_triangle: Vec<TriangleId>,
     pub wall_cell: Vec<CellId>,
-    /// Then come faces in grid planes; those normal to axis `a` are `plane_faces[a]..plane_faces[a + 1]`, by rising plane. Their normal points
+    /// Then come faces in grid planes; those normal to axis `a` are `plane_faces[a]..plane_faces[a + 1]`, by rising plane, then square. Their normal points
     /// along the axis.
     pub plane_faces: [u32; 4],
     /// For each face in a grid plane (from the first of them on): the lowest node of its square,

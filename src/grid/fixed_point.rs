@@ -16,6 +16,20 @@ pub struct Place {
     pub l: f64,
 }
 
+/// Places along some axes side by side, for vectors.
+#[derive(Clone, Copy, Debug)]
+pub struct Spot<const N: usize> {
+    pub h: [i64; N],
+    pub l: [f64; N],
+}
+
+/// What [`Spot`]s are relative to: low ends and scales of the intervals.
+#[derive(Clone, Copy, Debug)]
+pub struct Framing<const N: usize> {
+    low: [f64; N],
+    scale: [f64; N],
+}
+
 /// The part of an axis between two neighbouring nodes.
 #[derive(Clone, Copy, Debug)]
 pub struct Interval {
@@ -27,8 +41,9 @@ pub struct Interval {
     pub scale: f64,
     pub unit: f64,
     pub length: Place,
-    /// Its length over 2^exponent.
+    /// Its length over 2^exponent, and the inverse of that, rounded.
     pub size: Pair,
+    pub inverse: f64,
     pub middle: f64,
     /// A coordinate is off by at most this, in units.
     pub slack: f64,
@@ -63,6 +78,7 @@ impl Interval {
             unit,
             length: Place::default(),
             size: Pair::default(),
+            inverse: 0.0,
             middle: 0.0,
             slack,
             ordinary,
@@ -70,6 +86,7 @@ impl Interval {
         x.length = x.place(high, 0.0);
         x.size = Pair::joined(x.length.h as f64, (x.length.h - x.length.h as f64 as i64) as f64 + x.length.l);
         x.size = x.size.scaled(1.0 / UNITS);
+        x.inverse = 1.0 / x.size.hi;
         let sum = two_sum(low, high);
         x.middle = settle(sum.scaled(0.5), 0.0).unwrap_or_else(|| {
             let exact = |x: f64| Rational::from_f64(x).unwrap_or_default();
@@ -94,6 +111,62 @@ impl Interval {
         Place { h: h + k as i64, l: (f - k) + g }
     }
 }
+
+impl<const N: usize> Framing<N> {
+    /// Lanes beyond the given intervals are idle: zeros stay zeros.
+    #[inline(always)]
+    pub fn of(frames: &[&Interval]) -> Self {
+        let lane = |f: fn(&Interval) -> f64| std::array::from_fn(|i| frames.get(i).map_or(0.0, |x| f(x)));
+        Self { low: lane(|x| x.low), scale: lane(|x| x.scale) }
+    }
+
+    /// The places of x + residual: [`Interval::place`] without conversions to integers, for which narrow vectors have no instruction.
+    /// A sum with 1.5·2⁸⁴ is a multiple of 2³² and shows it in its last bits; |y| < 2⁶³ where intervals are ordinary.
+    #[inline(always)]
+    pub fn spot(&self, x: &[f64; N], residual: &[f64; N]) -> Spot<N> {
+        const TOP: f64 = 1.5 * (1u128 << 84) as f64;
+        let mut out = Spot { h: [0; N], l: [0.0; N] };
+        for i in 0..N {
+            let Pair { hi: s, lo: t } = two_sum(x[i], -self.low[i]);
+            let y = s * self.scale[i];
+            let top = y + TOP;
+            let rest = y - (top - TOP);
+            let middle = rest + ROUND;
+            let f = rest - (middle - ROUND);
+            let g = (t + residual[i]) * self.scale[i];
+            let last = (f + g) + ROUND;
+            let k = last - ROUND;
+            let part = |x: f64, zero: f64| x.to_bits().wrapping_sub(zero.to_bits());
+            out.h[i] = (part(top, TOP) << 32).wrapping_add(part(middle, ROUND)).wrapping_add(part(last, ROUND)) as i64;
+            out.l[i] = (f - k) + g;
+        }
+        out
+    }
+}
+
+/// A sum in fixed point: whole units, and the first-order part.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Sum {
+    pub h: i128,
+    pub l: f64,
+}
+
+impl Sum {
+    #[inline(always)]
+    pub fn add(&mut self, h: i128, l: f64) {
+        self.h = self.h.wrapping_add(h);
+        self.l += l;
+    }
+    #[inline(always)]
+    pub fn pair(self) -> Pair {
+        pair(self.h, self.l)
+    }
+}
+
+pub const TO_64: f64 = 1.0 / 18446744073709551616.0;
+pub const TO_128: f64 = TO_64 * TO_64;
+/// What pairs lose, with room.
+pub const LOSS: f64 = f64::from_bits((1023 - 96) << 52);
 
 /// The intervals of a lattice's axes.
 #[derive(Clone, Debug, Default)]
@@ -141,7 +214,7 @@ pub fn rough(x: i128) -> f64 {
 
 /// x + c as a pair; |x| < 2¹²⁶. Off by at most 2⁻⁵² of |c| + 2³², and 2⁻¹⁰⁴ of the sum.
 #[inline(always)]
-pub fn pair(x: i128, c: f64) -> Pair {
+fn pair(x: i128, c: f64) -> Pair {
     // Three parts that are exact as doubles.
     let a = (x >> 74) as i64 as f64 * power(74);
     let b = ((x >> 32) as i64 & ((1 << 42) - 1)) as f64 * power(32);
@@ -149,4 +222,16 @@ pub fn pair(x: i128, c: f64) -> Pair {
     let top = Pair::joined(a, b);
     let s = two_sum(top.hi, d + c);
     Pair::joined(s.hi, s.lo + top.lo)
+}
+
+/// The coordinate at a place plus q, where q and its bound are in terms of 2^exponent; the place's rest is off by the slack.
+#[inline(always)]
+pub fn coordinate(frame: &Interval, o: Place, q: Pair, err: f64) -> Option<f64> {
+    let top = (o.h >> 32 << 32) as f64 * frame.unit;
+    let rest = (o.h as u32) as f64 * frame.unit;
+    let length = frame.unit * UNITS;
+    let (q, err) = (q.scaled(length), err * length + if o.l == 0.0 { 0.0 } else { frame.slack * frame.unit });
+    let s = two_sum(frame.low, top).plus(two_sum(q.hi, rest)).plus(two_sum(q.lo, o.l * frame.unit));
+    let loss = (frame.low.abs() + length + q.hi.abs()) * LOSS;
+    settle(s, err + loss)
 }

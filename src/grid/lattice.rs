@@ -1,7 +1,8 @@
 //! A block of a rectilinear grid: three rising arrays of node coordinates, and where they are in the whole grid. The coordinates
 //! are the only truth about where planes are; nothing is recomputed from a spacing.
 
-use crate::base::{BoxId, Error, NodeId, PlaneId, Result, Status};
+use super::touched::others;
+use crate::base::{BoxId, Error, NodeId, PlaneId, Result, SquareId, Status};
 use crate::exact::Plane;
 
 /// A block of a grid: `counts[a]` boxes along axis `a`, between `counts[a] + 1` nodes. Indices are local to the block; x runs
@@ -86,6 +87,21 @@ impl Lattice {
         let (nx, ny) = (self.nodes[0].len(), self.nodes[1].len());
         let row = n.at() / nx;
         [n.at() - row * nx, row % ny, row / ny]
+    }
+    /// Number of squares of a plane normal to an axis.
+    pub fn square_count(&self, axis: usize) -> usize {
+        others(axis).map(|a| self.count(a)).iter().product()
+    }
+    /// The square of a plane normal to `axis` in the given layers of the other two axes.
+    #[inline(always)]
+    pub fn square_id(&self, axis: usize, [fast, slow]: [usize; 2]) -> SquareId {
+        SquareId((fast + self.count(others(axis)[0]) * slow) as u32)
+    }
+    /// The layers of a square.
+    #[inline(always)]
+    pub fn square_at(&self, axis: usize, square: SquareId) -> [usize; 2] {
+        let n = self.count(others(axis)[0]) as u32;
+        [(square.0 % n) as usize, (square.0 / n) as usize]
     }
     /// The low and high corner of a box.
     pub fn corners(&self, b: BoxId) -> [[f64; 3]; 2] {

@@ -1,17 +1,20 @@
 //! Grid: the boxes of a rectilinear grid against a surface: full, empty or cut into polyhedra.
 //!
 //! Stages in pipeline order: [`ground`] → [`pieces`] → [`points`] → [`touched`] → [`lines`] (with [`inside`]) → [`squares`] → [`cells`] (with
-//! [`voids`]) → [`assemble`]. On demand: [`moments`], [`regions`], [`aggregate`], [`full_faces`], [`keys`], [`to_complex`].
+//! [`voids`]) → [`assemble`]. On demand: [`moments`], [`boundaries`], [`regions`], [`aggregate`], [`full_faces`], [`keys`], [`to_complex`].
 
 pub mod aggregate;
 pub mod assemble;
+pub mod boundaries;
 pub mod cell_sums;
 pub mod cells;
 pub mod check;
 pub mod data;
 pub mod exact_moments;
+pub mod face_sums;
 pub mod fixed_point;
 pub mod full_faces;
+pub mod gathered;
 pub mod ground;
 pub mod inside;
 pub mod keys;
@@ -21,13 +24,16 @@ pub mod moments;
 pub mod oriented;
 pub mod pieces;
 pub mod points;
+pub mod refined;
 pub mod regions;
 pub mod second_moments;
 pub mod settle;
+pub mod square_stars;
 pub mod squares;
 pub mod to_complex;
 pub mod touched;
 pub mod voids;
+pub mod wall_sums;
 
 use crate::base::{Csr, Error, Result, Run, Status};
 use crate::cut::classify::KnifeId;

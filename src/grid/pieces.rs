@@ -14,17 +14,19 @@
 //! the rim of the block. Cost: linear in the pieces and their corners.
 
 use super::ground::{Ground, Slabs, Walk, on_plane};
-use crate::base::{BoxId, Csr, TriangleId, VertexId};
+use super::touched::others;
+use crate::base::{BoxId, Csr, SquareId, TriangleId, VertexId, parallel};
 use crate::cut::classify::{KnifeId, members_between};
 use crate::exact::{self, Sign};
 use crate::mesh::projection::turn;
-use rayon::prelude::*;
 
-/// A side that two pieces of one triangle share, in a plane that crosses the triangle: directed along n_P × n_T.
+/// A side that two pieces of one triangle share, in a plane that crosses the triangle: directed along n_P × n_T, so that the fluid is on
+/// its left, in the square given.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Chord {
     pub ends: [VertexId; 2],
     pub triangle: TriangleId,
+    pub square: SquareId,
 }
 
 /// The surface in the block.
@@ -48,21 +50,21 @@ const BLOCK: usize = 4096;
 
 pub fn pieces(ground: &Ground) -> Pieces {
     let count = ground.mesh.triangles.len();
-    let blocks: Vec<Pieces> = (0..count.div_ceil(BLOCK))
-        .into_par_iter()
-        .map_init(Scratch::default, |scratch, b| {
-            let mut out = Pieces::default();
-            for t in b * BLOCK..count.min((b + 1) * BLOCK) {
-                scratch.triangle(ground, TriangleId::of(t), &mut out);
-            }
-            out
-        })
-        .collect();
+    let blocks = parallel::map_ranges(count, BLOCK, |range| {
+        let (mut scratch, mut out) = (Scratch::default(), Pieces::default());
+        for t in range {
+            scratch.triangle(ground, TriangleId::of(t), &mut out);
+        }
+        out
+    });
     join(ground, blocks)
 }
 
 /// Joins blocks: points inside triangles move up by what came before.
-fn join(ground: &Ground, blocks: Vec<Pieces>) -> Pieces {
+fn join(ground: &Ground, mut blocks: Vec<Pieces>) -> Pieces {
+    if blocks.len() == 1 {
+        return blocks.pop().expect("one block");
+    }
     let first = ground.first_inner_point();
     let total = |f: fn(&Pieces) -> usize| blocks.iter().map(f).sum::<usize>();
     let mut all = Pieces::default();
@@ -223,11 +225,31 @@ impl Triangle<'_> {
                 if below || u.s[a] == 1 {
                     // Above the plane the piece is walked along n_P × n_T.
                     let ends = if below { [v.v, u.v] } else { [u.v, v.v] };
-                    out.chords.push((self.ground.knife(a, u.s[a] / 2), Chord { ends, triangle: self.t }));
+                    self.push_chord(a, &u.s, &v.s, ends, out);
                 }
             }
             u = v;
         }
+    }
+
+    /// Emits a chord of a plane normal to `axis`, between points in the given slabs, unless the square on its left is outside the block.
+    fn push_chord(&mut self, axis: usize, u: &Slabs, v: &Slabs, ends: [VertexId; 2], out: &mut Pieces) {
+        let mut at = [0; 2];
+        for (at, g) in at.iter_mut().zip(others(axis)) {
+            // On a grid line the left is behind the triangle's normal: it is normal to the chord, and not along the plane's.
+            let layer = match u[g].min(v[g]) {
+                s if !on_plane(s) => s,
+                s if u[g] != v[g] => s + 1,
+                s if self.normal(g) == Sign::Positive => s - 1,
+                s => s + 1,
+            };
+            if layer == 0 || layer == self.ground.behind(g) {
+                return;
+            }
+            *at = layer as usize / 2 - 1;
+        }
+        let square = self.ground.lattice.square_id(axis, at);
+        out.chords.push((self.ground.knife(axis, u[axis] / 2), Chord { ends, triangle: self.t, square }));
     }
 
     /// A chord of a plane normal to `axis` that lies in a second plane as well, hence on a grid line: it bounds faces of both planes in all
@@ -253,8 +275,8 @@ impl Triangle<'_> {
                 let against = [v.v, u.v];
                 let below = before.s[other] < a.s[other];
                 let second = if below { against } else { [u.v, v.v] };
-                out.chords.push((self.ground.knife(axis, a.s[axis] / 2), Chord { ends: against, triangle: self.t }));
-                out.chords.push((self.ground.knife(other, a.s[other] / 2), Chord { ends: second, triangle: self.t }));
+                self.push_chord(axis, &u.s, &v.s, against, out);
+                self.push_chord(other, &u.s, &v.s, second, out);
             }
             u = v;
         }

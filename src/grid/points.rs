@@ -13,6 +13,7 @@ use crate::complex::data::origin_point;
 use crate::exact::double_double::DoubleDouble;
 use crate::exact::ring::Ring;
 use crate::exact::{self, Plane};
+use crate::mesh::TriMesh;
 use rayon::prelude::*;
 use rug::Rational;
 
@@ -54,8 +55,8 @@ pub fn points(ground: &Ground, pieces: &Pieces, planes: &[Plane]) -> Points {
             let node = |a: usize| on_plane(slabs[a]).then(|| ground.lattice.nodes[a][slabs[a] as usize / 2]);
             let known = [node(0), node(1), node(2)];
             let values = match origin {
-                Origin::Edge(e, p) => on_edge(ground, e, ground.lattice.plane_at(p).0, known, allowed),
-                Origin::Triangle(t, ..) => in_triangle(ground, t, known, allowed),
+                Origin::Edge(e, p) => on_edge(mesh, e, ground.lattice.plane_at(p).0, known, allowed),
+                Origin::Triangle(t, ..) => in_triangle(mesh, t, known, allowed),
                 _ => None,
             };
             let exactly = || origin_point(mesh, planes, origin);
@@ -124,11 +125,11 @@ impl Points {
 }
 
 /// A point's coordinates, as far as they are not on planes: values with bounds.
-type Values = [Option<DoubleDouble>; 3];
+pub(super) type Values = [Option<DoubleDouble>; 3];
 
 /// `None` where a bound is larger than allowed.
-fn on_edge(ground: &Ground, e: EdgeId, lead: usize, known: [Option<f64>; 3], allowed: f64) -> Option<Values> {
-    let [a, b] = ground.mesh.edges[e.at()].map(|v| &ground.mesh.vertices[v.at()]);
+pub(super) fn on_edge(mesh: &TriMesh, e: EdgeId, lead: usize, known: [Option<f64>; 3], allowed: f64) -> Option<Values> {
+    let [a, b] = mesh.edges[e.at()].map(|v| &mesh.vertices[v.at()]);
     let t = difference(known[lead]?, a[lead]).over(&difference(b[lead], a[lead]))?;
     let mut values = [None; 3];
     for i in (0..3).filter(|&i| known[i].is_none()) {
@@ -142,12 +143,12 @@ fn on_edge(ground: &Ground, e: EdgeId, lead: usize, known: [Option<f64>; 3], all
     Some(values)
 }
 
-fn in_triangle(ground: &Ground, t: TriangleId, known: [Option<f64>; 3], allowed: f64) -> Option<Values> {
+pub(super) fn in_triangle(mesh: &TriMesh, t: TriangleId, known: [Option<f64>; 3], allowed: f64) -> Option<Values> {
     let mut values = [None; 3];
     let Some(open) = known.iter().position(Option::is_none) else { return Some(values) };
     let (i, j) = ((open + 1) % 3, (open + 2) % 3);
     let (p, q) = (known[i]?, known[j]?);
-    let [a, b, c] = ground.mesh.corners(t);
+    let [a, b, c] = mesh.corners(t);
     let (u, v): ([_; 3], [_; 3]) =
         (std::array::from_fn(|k| difference(b[k], a[k])), std::array::from_fn(|k| difference(c[k], a[k])));
     let minor = |k: usize, l: usize| u[k].times(&v[l]).minus(&u[l].times(&v[k]));

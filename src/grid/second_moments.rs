@@ -6,10 +6,10 @@
 //! [`super::settle`] says. What the bound leaves open is computed with rationals: exact zeros by symmetry (some hundred
 //! microseconds each), very small cells. Cost otherwise: some 10 µs per cell.
 
-use super::cell_sums::position;
 use super::data::GridCells;
 use super::exact_moments::{self, PAIRS};
 use super::fixed_point::{Frames, Interval, Place, UNITS, power};
+use super::gathered::position;
 use super::moments::cell_boxes;
 use super::settle::{Pair, settle, settle_rational, two_sum};
 use crate::base::{BoxId, CellId, VertexId};

@@ -82,6 +82,16 @@ pub fn two_sum(a: f64, b: f64) -> Pair {
     Pair { hi, lo }
 }
 
+/// A product and its error, which is exact both ways.
+#[inline(always)]
+fn two_prod<const FUSED: bool>(a: f64, b: f64) -> (f64, f64) {
+    if FUSED {
+        let p = a * b;
+        return (p, a.mul_add(b, -p));
+    }
+    crate::exact::double_double::two_prod(a, b)
+}
+
 impl Pair {
     #[inline(always)]
     pub fn of(x: f64) -> Self {
@@ -102,7 +112,12 @@ impl Pair {
     /// Off by at most 2⁻¹⁰⁰ of itself.
     #[inline(always)]
     pub fn times(self, o: Self) -> Self {
-        let (p, e) = crate::exact::double_double::two_prod(self.hi, o.hi);
+        self.times_as::<false>(o)
+    }
+    /// The same bits; `FUSED`: with fused multiplication (see [`crate::base::processor`]).
+    #[inline(always)]
+    pub fn times_as<const FUSED: bool>(self, o: Self) -> Self {
+        let (p, e) = two_prod::<FUSED>(self.hi, o.hi);
         Self::joined(p, e + (self.hi * o.lo + self.lo * o.hi))
     }
     /// Times a power of two.
@@ -110,11 +125,16 @@ impl Pair {
     pub fn scaled(self, power: f64) -> Self {
         Self { hi: self.hi * power, lo: self.lo * power }
     }
-    /// Divided by `o`, given 1 / o.hi; off by at most 2⁻⁹⁸ of itself.
+    /// Divided by `o`, given 1 / o.hi (to a few units in its last place); off by at most 2⁻⁹⁸ of itself.
     #[inline(always)]
     pub fn over(self, o: Self, inverse: f64) -> Self {
+        self.over_as::<false>(o, inverse)
+    }
+    /// The same bits; `FUSED`: as in [`times_as`](Self::times_as).
+    #[inline(always)]
+    pub fn over_as<const FUSED: bool>(self, o: Self, inverse: f64) -> Self {
         let q = self.hi * inverse;
-        let (p, e) = crate::exact::double_double::two_prod(q, o.hi);
+        let (p, e) = two_prod::<FUSED>(q, o.hi);
         let rest = (((self.hi - p) - e) + self.lo) - q * o.lo;
         Self::joined(q, rest * inverse)
     }

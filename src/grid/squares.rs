@@ -1,28 +1,27 @@
 //! Stage: the faces in grid planes, as far as touched boxes are beside them: each plane's section with the surface's chords, the mesh
-//! edges that lie in it, and the segments of grid lines, traced into loops. One face lies in one square of the plane.
+//! edges that lie in it, and the segments of grid lines, traced into loops.
 //!
-//! The graph of a plane is that of `cut::sections`, thinned: of the lattice only segments beside touched boxes are in it, and a
-//! half-edge has a face only where the square on its left is one of a touched box. All half-edges around one square agree in that, so
-//! the loops of the squares that are built close. Around a vertex on a grid line the order is that of the eight directions (along
-//! the axes, or in an open quadrant), from slabs alone; only half-edges in one quadrant are compared by value.
+//! A face lies in one square of its plane, and so does each half-edge that has one on its left: the pieces of the surface are split at
+//! all grid lines. So half-edges are sorted by square, and nearly every square is traced on its own: where no two half-edges of a
+//! square leave the same vertex, the one that leaves where another arrives is the next, and no direction is compared. All other
+//! squares (features that meet in a vertex, slits, holes, touching vertices) are left to `square_stars`, square by square.
+//! Of the lattice only segments beside touched boxes are in the graph; all half-edges around a square agree in that.
 //!
-//! Holes, touching vertices and slits: as in `cut::faces`, which finds the faces. Planes are independent.
+//! Invariant: faces rise by axis, plane, square, then lowest half-edge (chords by triangle, mesh edges, grid segments), where their
+//! outer loops start. Planes are independent. Cost: linear; what one plane needs stays in the cache.
 
 use super::data::FULL_CELL;
 use super::ground::{Slabs, on_plane};
-use super::inside::eighth;
 use super::lines::{AllSlabs, Lines};
 use super::pieces::Chord;
 use super::touched::{Touched, others};
-use crate::base::{CellId, Csr, EdgeId, NodeId, Result, VertexId};
+use crate::base::{CellId, Csr, EdgeId, NodeId, Result, SquareId, VertexId, parallel};
 use crate::cut::classify::KnifeId;
-use crate::cut::faces::{AllVertices, SectionFaces, faces_of};
-use crate::cut::sections::{Carrier, LocalMap, Piece, Section, edge_pieces};
-use crate::exact::{Sign, sort_cyclic};
-use rayon::prelude::*;
+use crate::cut::faces::AllVertices;
+use crate::cut::sections::{Piece, Section, edge_pieces};
 use std::cmp::Ordering;
 
-/// Faces in grid planes, by axis, then plane.
+/// Faces in grid planes, by axis, plane, then square.
 #[derive(Debug, Default)]
 pub struct Squares {
     /// Faces normal to axis `a` are `axis_faces[a]..axis_faces[a + 1]`.
@@ -54,12 +53,22 @@ pub struct Scene<'a> {
 
 /// One plane: its knife, axis and node; u and w are its axes, right-handed about the normal.
 #[derive(Clone, Copy)]
-struct PlaneOf {
-    knife: KnifeId,
-    axis: usize,
-    rank: u32,
-    u: usize,
-    w: usize,
+pub struct PlaneOf {
+    pub knife: KnifeId,
+    pub axis: usize,
+    pub rank: u32,
+    pub u: usize,
+    pub w: usize,
+}
+
+/// A half-edge with a face on its left. `id`: twice its piece's place in the plane (chords, mesh edges, grid segments), 1 more where it runs
+/// against the piece. `square`: the place of its square among those of the plane beside touched boxes.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct HalfEdge {
+    pub from: VertexId,
+    pub to: VertexId,
+    pub id: u32,
+    pub square: u32,
 }
 
 pub fn squares(scene: &Scene) -> Result<Squares> {
@@ -71,233 +80,309 @@ pub fn squares(scene: &Scene) -> Result<Squares> {
             PlaneOf { knife, axis, rank, u: (axis + 1) % 3, w: (axis + 2) % 3 }
         })
         .collect();
-    let mut out = Squares { face_loops: vec![0], ..Default::default() };
-    // An axis at a time: what is joined is held twice only in part.
-    for planes in planes.chunk_by(|p, q| p.axis == q.axis) {
-        let parts: Vec<Result<Squares>> =
-            planes.par_iter().map_init(Buffers::default, |buffers, plane| scene.plane(plane, buffers)).collect();
-        let total = |count: fn(&Squares) -> usize| parts.iter().flatten().map(count).sum::<usize>();
-        out.face_loops.reserve_exact(total(|p| p.node.len()));
-        out.loops.items.reserve_exact(total(|p| p.loops.items.len()));
-        out.loops.offsets.reserve_exact(total(|p| p.loops.len()));
-        out.node.reserve_exact(total(|p| p.node.len()));
-        out.sides.reserve_exact(total(|p| p.node.len()));
-        for part in parts {
-            let part = part?;
-            let (loops, corners) = (out.loops.len() as u32, out.loops.items.len() as u32);
-            out.face_loops.extend(part.face_loops[1..].iter().map(|l| l + loops));
-            out.loops.items.extend(part.loops.items);
-            out.loops.offsets.extend(part.loops.offsets[1..].iter().map(|o| o + corners));
-            out.node.extend(part.node);
-            out.sides.extend(part.sides);
+    let parts = parallel::map_ranges(planes.len(), 1, |range| {
+        let mut out = Squares { face_loops: vec![0], ..Default::default() };
+        let mut buffers = Buffers::default();
+        for plane in &planes[range] {
+            scene.plane(plane, &mut buffers, &mut out)?;
+            out.axis_faces[plane.axis + 1..].fill(out.node.len() as u32);
         }
-        out.axis_faces[planes[0].axis + 1..].fill(out.node.len() as u32);
+        Ok(out)
+    });
+    Ok(join(parts.into_iter().collect::<Result<_>>()?))
+}
+
+/// The faces of all parts, in order.
+fn join(mut parts: Vec<Squares>) -> Squares {
+    if parts.len() == 1 {
+        return parts.pop().expect("one part");
     }
-    Ok(out)
+    let mut out = Squares::default();
+    for part in &parts {
+        (0..4).for_each(|a| out.axis_faces[a] += part.axis_faces[a]);
+    }
+    let first = parallel::offsets(parts.iter().map(|p| p.loops.len()));
+    for (part, &first) in parts.iter_mut().zip(&first) {
+        // Each part but the last gives its end to the next one as its start.
+        part.face_loops.iter_mut().for_each(|l| *l += first as u32);
+    }
+    let last = parts.len() - 1;
+    parts[..last].iter_mut().for_each(|p| p.face_loops.truncate(p.node.len()));
+    out.face_loops = parallel::concat(parts.iter_mut().map(|p| std::mem::take(&mut p.face_loops)).collect());
+    out.node = parallel::concat(parts.iter_mut().map(|p| std::mem::take(&mut p.node)).collect());
+    out.sides = parallel::concat(parts.iter_mut().map(|p| std::mem::take(&mut p.sides)).collect());
+    out.loops = Csr::concat(parts.into_iter().map(|p| p.loops).collect());
+    out
 }
 
 #[derive(Default)]
 struct Buffers {
-    map: LocalMap,
-    section: Section,
+    wanted: Wanted,
+    /// Pieces of mesh edges in the plane.
+    edges: Vec<Piece>,
     boxes: Vec<u64>,
-    order: Vec<(u8, u32)>,
-    row: Vec<u32>,
-    vertices: Vec<VertexId>,
-    faces: SectionFaces,
+    half_edges: Vec<HalfEdge>,
+    /// The half-edges by square, and where those of each square start.
+    sorted: Vec<HalfEdge>,
+    starts: Vec<u32>,
+    /// Mesh vertices inside squares.
+    inside: Vec<(u32, VertexId)>,
+    bare: Vec<VertexId>,
+    table: Table,
+    done: Vec<bool>,
+    section: Section,
+}
+
+/// The squares of a plane beside touched boxes: a bit each, by `SquareId`, and the numbers of bits before each word.
+#[derive(Default)]
+struct Wanted {
+    bits: Vec<u64>,
+    before: Vec<u32>,
+    count: usize,
+}
+
+impl Wanted {
+    fn fill(&mut self, scene: &Scene, p: &PlaneOf) {
+        let lattice = &scene.slabs.ground.lattice;
+        let [fast, slow] = others(p.axis);
+        let bits = &scene.touched.along[fast];
+        let rank = p.rank as usize;
+        self.bits.clear();
+        // One more word, so that rows may reach into it.
+        self.bits.resize(lattice.square_count(p.axis).div_ceil(64) + 1, 0);
+        for j in 0..lattice.count(slow) {
+            let start = j * lattice.count(fast);
+            for layer in rank.saturating_sub(1)..(rank + 1).min(lattice.count(p.axis)) {
+                let row = if slow < p.axis { bits.row(j, layer) } else { bits.row(layer, j) };
+                for (w, &word) in row.iter().enumerate().filter(|(_, word)| **word != 0) {
+                    let (at, shift) = (start / 64 + w, start % 64);
+                    self.bits[at] |= word << shift;
+                    if shift != 0 {
+                        self.bits[at + 1] |= word >> (64 - shift);
+                    }
+                }
+            }
+        }
+        self.before.clear();
+        let mut count = 0;
+        self.before.extend(self.bits.iter().map(|w| {
+            count += w.count_ones();
+            count - w.count_ones()
+        }));
+        self.count = count as usize;
+    }
+    /// The place of a square among those beside touched boxes, if it is one.
+    #[inline(always)]
+    fn place(&self, s: SquareId) -> Option<u32> {
+        let (word, bit) = (self.bits[s.at() / 64], 1u64 << (s.0 % 64));
+        (word & bit != 0).then(|| self.before[s.at() / 64] + (word & (bit - 1)).count_ones())
+    }
+}
+
+/// The half-edges of one square by the vertex that they leave: slots of earlier rounds are free.
+#[derive(Default)]
+struct Table {
+    slots: Vec<Slot>,
+    round: u32,
+    shift: u32,
+}
+
+#[derive(Clone, Copy, Default)]
+struct Slot {
+    from: VertexId,
+    at: u32,
+    round: u32,
+}
+
+impl Table {
+    #[inline(always)]
+    fn slot(&self, v: VertexId) -> usize {
+        let mut at = (v.0.wrapping_mul(0x9E37_79B9) >> self.shift) as usize;
+        while self.slots[at].round == self.round && self.slots[at].from != v {
+            at = (at + 1) & (self.slots.len() - 1);
+        }
+        at
+    }
+    /// Whether no two of the half-edges leave the same vertex.
+    #[inline]
+    fn fill(&mut self, row: &[HalfEdge]) -> bool {
+        let size = (2 * row.len()).next_power_of_two().max(64);
+        if size > self.slots.len() || self.round == u32::MAX {
+            self.slots.clear();
+            self.slots.resize(size, Slot::default());
+            (self.round, self.shift) = (0, 32 - size.trailing_zeros());
+        }
+        self.round += 1;
+        let mut single = true;
+        for (at, h) in row.iter().enumerate() {
+            let slot = self.slot(h.from);
+            single &= self.slots[slot].round != self.round;
+            self.slots[slot] = Slot { from: h.from, at: at as u32, round: self.round };
+        }
+        single
+    }
+    #[inline(always)]
+    fn get(&self, v: VertexId) -> Option<usize> {
+        let slot = &self.slots[self.slot(v)];
+        (slot.round == self.round).then_some(slot.at as usize)
+    }
 }
 
 impl Scene<'_> {
-    #[inline(always)]
-    fn slabs_of(&self, v: VertexId) -> Slabs {
-        match v.0.checked_sub(self.lines.first_node) {
-            None => self.slabs.of(v),
-            Some(n) => self.slabs.ground.lattice.node_at(self.lines.nodes[n as usize]).map(|i| 2 * i as u32 + 1),
-        }
-    }
-
-    /// Whether the square of a plane in the given layers is one of a touched box.
-    #[inline(always)]
-    fn wanted(&self, p: &PlaneOf, u: i64, w: i64) -> bool {
-        let lattice = &self.slabs.ground.lattice;
-        if u < 0 || w < 0 || u >= lattice.count(p.u) as i64 || w >= lattice.count(p.w) as i64 {
-            return false;
-        }
-        let mut at = [0; 3];
-        (at[p.u], at[p.w]) = (u as usize, w as usize);
-        let rank = p.rank as usize;
-        let mut side = |layer: usize| {
-            at[p.axis] = layer;
-            self.touched.get(at)
-        };
-        (rank > 0 && side(rank - 1)) || (rank < lattice.count(p.axis) && side(rank))
-    }
-
-    fn plane(&self, p: &PlaneOf, buffers: &mut Buffers) -> Result<Squares> {
-        let Buffers { map, section, boxes, order, row, vertices, faces } = buffers;
+    fn plane(&self, p: &PlaneOf, buffers: &mut Buffers, out: &mut Squares) -> Result<()> {
+        let Buffers { wanted, edges, boxes, half_edges, sorted, starts, inside, bare, table, done, section } = buffers;
         let ground = self.slabs.ground;
-        section.knife = p.knife;
-        section.pieces.clear();
-        for c in self.contents.chords.row(p.knife) {
-            let carrier = Carrier::Chord(c.triangle);
-            section.pieces.push(Piece { ends: c.ends, edge: EdgeId::NONE, carrier, left: true, right: false });
+        wanted.fill(self, p);
+        if wanted.count == 0 {
+            return Ok(());
         }
-        let first_edge = section.pieces.len();
+        half_edges.clear();
+        let chords = self.contents.chords.row(p.knife);
+        for (i, c) in chords.iter().enumerate() {
+            let square = wanted.place(c.square);
+            debug_assert!(square.is_some());
+            let [from, to] = c.ends;
+            half_edges.extend(square.map(|square| HalfEdge { from, to, id: 2 * i as u32, square }));
+        }
+        edges.clear();
         for &e in self.contents.edges.row(p.knife) {
-            edge_pieces(self.all.surface, e, p.knife, &mut section.pieces);
+            edge_pieces(self.all.surface, e, p.knife, edges);
         }
-        let mut kept = first_edge;
-        for i in first_edge..section.pieces.len() {
-            if section.pieces[i].ends.iter().all(|&v| ground.in_block(&self.slabs.of(v))) {
-                section.pieces.swap(kept, i);
-                kept += 1;
+        for (i, piece) in edges.iter().enumerate() {
+            let beside = self.beside(p, piece.ends);
+            for (side, _) in [piece.left, piece.right].into_iter().enumerate().filter(|s| s.1) {
+                let (from, to) = (piece.ends[side], piece.ends[1 - side]);
+                let id = (2 * (chords.len() + i) + side) as u32;
+                let square = beside[side].and_then(|s| wanted.place(s));
+                half_edges.extend(square.map(|square| HalfEdge { from, to, id, square }));
             }
         }
-        section.pieces.truncate(kept);
-        section.pieces.iter_mut().for_each(|piece| self.trim(p, piece));
-        self.grid_segments(p, true, &mut section.pieces, boxes)?;
-        self.grid_segments(p, false, &mut section.pieces, boxes)?;
-        let mut out = Squares { face_loops: vec![0], ..Default::default() };
-        if section.pieces.is_empty() {
-            return Ok(out);
+        let first_line = (2 * (chords.len() + edges.len())) as u32;
+        let mut next = first_line;
+        self.grid_segments(p, true, wanted, &mut next, half_edges, boxes)?;
+        self.grid_segments(p, false, wanted, &mut next, half_edges, boxes)?;
+        sort_by_square(half_edges, wanted.count, starts, sorted);
+        inside.clear();
+        for &v in self.contents.vertices.row(p.knife) {
+            let s = self.slabs.of(v);
+            let at = others(p.axis).map(|a| s[a]);
+            // On a grid line a vertex without a piece is not in the fluid: pieces of the line would end there.
+            if ground.in_block(&s) && !at.iter().any(|&s| on_plane(s)) {
+                let square = ground.lattice.square_id(p.axis, at.map(|s| s as usize / 2 - 1));
+                inside.extend(wanted.place(square).map(|n| (n, v)));
+            }
         }
-        map.prepare(self.all.origins.len());
-        section.gather_stars(map);
-        self.sort_stars(p, section, order, row);
-        vertices.clear();
-        let on_plane = self.contents.vertices.row(p.knife);
-        vertices.extend(on_plane.iter().filter(|&&v| ground.in_block(&self.slabs.of(v))));
-        faces.clear();
-        let outcome = faces_of(self.all, vertices, section, map, false, faces);
-        map.clear(section);
-        section.vertices.clear();
-        outcome?;
-        for &first in &faces.faces[..faces.faces.len() - 1] {
-            let outer = faces.loops.row(first as usize);
-            let node = self.square_of(p, outer.iter().map(|c| c.0));
-            out.node.push(node);
-            out.sides.push(self.sides(p, node));
+        inside.sort_unstable();
+        let mut candidates = &inside[..];
+        let mut n = 0;
+        for (w, &word) in wanted.bits.iter().enumerate() {
+            let mut left = word;
+            while left != 0 {
+                let square = SquareId::of(64 * w + left.trailing_zeros() as usize);
+                left &= left - 1;
+                let row = &sorted[starts[n] as usize..starts[n + 1] as usize];
+                let here;
+                (here, candidates) = candidates.split_at(candidates.partition_point(|c| c.0 == n as u32));
+                n += 1;
+                if row.is_empty() {
+                    continue;
+                }
+                let single = table.fill(row);
+                bare.clear();
+                bare.extend(here.iter().map(|c| c.1).filter(|&v| table.get(v).is_none()));
+                if !(single && bare.is_empty() && trace(row, table, first_line, done, out)) {
+                    self.faces_of_square(p, row, edges, bare, section, out)?;
+                }
+                let faces = out.face_loops.len() - 1 - out.node.len();
+                let (node, sides) = self.place(p, square);
+                out.node.extend(std::iter::repeat_n(node, faces));
+                out.sides.extend(std::iter::repeat_n(sides, faces));
+            }
         }
-        out.loops.items.extend(faces.loops.items.iter().map(|c| c.0));
-        out.loops.offsets.clone_from(&faces.loops.offsets);
-        out.face_loops.clone_from(&faces.faces);
-        Ok(out)
+        Ok(())
     }
 
-    /// Takes the faces off a surface piece's sides that are outside the block: only pieces on its rim have such a side.
-    fn trim(&self, p: &PlaneOf, piece: &mut Piece) {
-        let [a, b] = piece.ends.map(|v| self.slabs.of(v));
-        for (axis, other, sign) in [(p.u, p.w, true), (p.w, p.u, false)] {
-            let s = a[axis];
-            let behind = self.slabs.ground.behind(axis);
-            if s != b[axis] || !on_plane(s) || (s != 1 && s + 1 != behind) {
+    /// The squares on the left and the right of a piece of the surface; `None` outside the block.
+    fn beside(&self, p: &PlaneOf, ends: [VertexId; 2]) -> [Option<SquareId>; 2] {
+        let ground = self.slabs.ground;
+        let [a, b] = ends.map(|v| self.slabs.of(v));
+        if !ground.in_block(&a) || !ground.in_block(&b) {
+            return [None; 2];
+        }
+        let slab = |g: usize| match a[g].min(b[g]) {
+            s if on_plane(s) && a[g] != b[g] => s + 1,
+            s => s,
+        };
+        let mut sides = [[slab(p.u), slab(p.w)]; 2];
+        for (i, along, left_of_up) in [(0, p.w, 0), (1, p.u, 1)] {
+            let s = sides[0][i];
+            if !on_plane(s) {
                 continue;
             }
             // Upwards along w the left is −u; along u it is +w.
-            let up = match a[other].cmp(&b[other]) {
-                Ordering::Equal => self.all.compare_coordinate(piece.ends[0], piece.ends[1], other),
+            let up = match a[along].cmp(&b[along]) {
+                Ordering::Equal => self.all.compare_coordinate(ends[0], ends[1], along),
                 order => order,
             } == Ordering::Less;
-            let left_is_low = up == sign;
-            if s == 1 {
-                *(if left_is_low { &mut piece.left } else { &mut piece.right }) = false;
-            }
-            if s + 1 == behind {
-                *(if left_is_low { &mut piece.right } else { &mut piece.left }) = false;
-            }
+            let low = if up { left_of_up } else { 1 - left_of_up };
+            (sides[low][i], sides[1 - low][i]) = (s - 1, s + 1);
         }
+        sides.map(|[u, w]| {
+            if [(u, p.u), (w, p.w)].iter().any(|&(s, g)| s == 0 || s == ground.behind(g)) {
+                return None;
+            }
+            let at = if p.u < p.w { [u, w] } else { [w, u] };
+            Some(ground.lattice.square_id(p.axis, at.map(|s| s as usize / 2 - 1)))
+        })
     }
 
-    /// The segments of the grid lines of a plane along one of its axes.
-    fn grid_segments(&self, p: &PlaneOf, along_u: bool, pieces: &mut Vec<Piece>, boxes: &mut Vec<u64>) -> Result<()> {
+    /// The segments of the grid lines of a plane along one of its axes. `next`: twice the place of the next piece.
+    fn grid_segments(
+        &self,
+        p: &PlaneOf,
+        along_u: bool,
+        wanted: &Wanted,
+        next: &mut u32,
+        half_edges: &mut Vec<HalfEdge>,
+        boxes: &mut Vec<u64>,
+    ) -> Result<()> {
         let lattice = &self.slabs.ground.lattice;
         let (axis, across) = if along_u { (p.u, p.w) } else { (p.w, p.u) };
         let [b, c] = others(axis);
         let rows = [lattice.count(b), lattice.count(c)];
+        let stride = |a: usize| if a == others(p.axis)[0] { 1 } else { lattice.count(others(p.axis)[0]) as u32 };
+        let (step, row_step) = (stride(axis), stride(across));
         for rank in 0..lattice.nodes[across].len() {
             let place = if b == across { [rank, p.rank as usize] } else { [p.rank as usize, rank] };
             self.touched.along[axis].around(place[0], place[1], rows, boxes);
-            let other = self.slabs.ground.knife(across, rank as u32);
+            if boxes.iter().all(|w| *w == 0) {
+                // A line that the surface meets has touched boxes around it.
+                continue;
+            }
+            let row = rank as u32 * row_step;
+            let (has_low, has_high) = (rank > 0, rank < lattice.count(across));
             self.lines.each_segment(self.slabs, axis, place, boxes, |from, to, layer| {
-                let (layer, rank) = (layer as i64, rank as i64);
+                let high = row + layer * step;
+                let low = if has_low { wanted.place(SquareId(high.wrapping_sub(row_step))) } else { None };
+                let high = if has_high { wanted.place(SquareId(high)) } else { None };
                 // Along +u the left is +w; along +w it is −u.
-                let (left, right) = if along_u {
-                    (self.wanted(p, layer, rank), self.wanted(p, layer, rank - 1))
-                } else {
-                    (self.wanted(p, rank - 1, layer), self.wanted(p, rank, layer))
-                };
-                if left || right {
-                    let carrier = Carrier::Line { other, against: false, ends: [from, to] };
-                    pieces.push(Piece { ends: [from, to], edge: EdgeId::NONE, carrier, left, right });
-                }
+                let (left, right) = if along_u { (high, low) } else { (low, high) };
+                half_edges.extend(left.map(|square| HalfEdge { from, to, id: *next, square }));
+                half_edges.extend(right.map(|square| HalfEdge { from: to, to: from, id: *next + 1, square }));
+                *next += 2;
             })?;
         }
         Ok(())
     }
 
-    fn sort_stars(&self, p: &PlaneOf, section: &mut Section, order: &mut Vec<(u8, u32)>, row: &mut Vec<u32>) {
-        for v in 0..section.vertices.len() {
-            let range = section.star.range(v);
-            if range.len() <= 2 {
-                continue;
-            }
-            let s = self.slabs_of(section.vertices[v]);
-            let turn = |a: u32, b: u32| section.turn(self.all.surface, a, b);
-            if !on_plane(s[p.u]) && !on_plane(s[p.w]) {
-                row.clear();
-                row.extend_from_slice(&section.star.items[range.clone()]);
-                sort_cyclic(row, |a, b| turn(*a, *b), |a, b| a != b);
-                section.star.items[range].copy_from_slice(row);
-                continue;
-            }
-            order.clear();
-            order.extend(section.star.items[range.clone()].iter().map(|&h| (self.direction(p, section, &s, h), h)));
-            order.sort_by(|a, b| {
-                a.0.cmp(&b.0).then_with(|| match a.0 & 1 != 0 {
-                    // Half-edges of lines lie along an axis: these are the surface's.
-                    true => match turn(a.1, b.1) {
-                        Sign::Positive => Ordering::Less,
-                        Sign::Zero => Ordering::Equal,
-                        Sign::Negative => Ordering::Greater,
-                    },
-                    false => Ordering::Equal,
-                })
-            });
-            section.star.items[range].iter_mut().zip(order.iter()).for_each(|(h, o)| *h = o.1);
-        }
-    }
-
-    /// The direction of a half-edge from a vertex on a grid line, in eighths of a turn. On one line alone, a half-plane beside it counts as
-    /// a quadrant.
+    /// The lowest node of a square, and what is below and above it.
     #[inline]
-    fn direction(&self, p: &PlaneOf, section: &Section, s: &Slabs, h: u32) -> u8 {
-        let target = section.target(h);
-        let t = self.slabs_of(target);
-        let (du, dw) = (t[p.u].cmp(&s[p.u]), t[p.w].cmp(&s[p.w]));
-        let exactly = |axis: usize, by_slab: Ordering| match by_slab {
-            Ordering::Equal => self.all.compare_coordinate(target, section.origin(h), axis),
-            order => order,
-        };
-        match (on_plane(s[p.u]), on_plane(s[p.w])) {
-            (true, true) => eighth(du, dw),
-            // On a line along u: above it, below it, or on it.
-            (false, true) => match dw {
-                Ordering::Greater => 1,
-                Ordering::Less => 5,
-                Ordering::Equal => eighth(exactly(p.u, du), Ordering::Equal),
-            },
-            _ => match du {
-                Ordering::Greater => 7,
-                Ordering::Less => 3,
-                Ordering::Equal => eighth(Ordering::Equal, exactly(p.w, dw)),
-            },
-        }
-    }
-
-    /// What is below and above a square.
-    fn sides(&self, p: &PlaneOf, node: NodeId) -> [CellId; 2] {
+    fn place(&self, p: &PlaneOf, square: SquareId) -> (NodeId, [CellId; 2]) {
         let lattice = &self.slabs.ground.lattice;
-        let mut at = lattice.node_at(node);
+        let [fast, slow] = others(p.axis);
+        let mut at = [p.rank as usize; 3];
+        [at[fast], at[slow]] = lattice.square_at(p.axis, square);
+        let node = lattice.node_id(at);
         let mut side = |layer: Option<usize>| match layer.filter(|&l| l < lattice.count(p.axis)) {
             None => CellId::NONE,
             Some(layer) => {
@@ -305,24 +390,83 @@ impl Scene<'_> {
                 if self.touched.get(at) { CellId::of(self.touched.rank(at)) } else { FULL_CELL }
             }
         };
-        [side((p.rank as usize).checked_sub(1)), side(Some(p.rank as usize))]
+        (node, [side((p.rank as usize).checked_sub(1)), side(Some(p.rank as usize))])
     }
 
-    /// The square that holds a loop of more than a line.
-    fn square_of(&self, p: &PlaneOf, corners: impl Iterator<Item = VertexId>) -> NodeId {
-        let mut low: Slabs = [u32::MAX; 3];
-        for v in corners {
-            let s = self.slabs_of(v);
-            (low[p.u], low[p.w]) = (low[p.u].min(s[p.u]), low[p.w].min(s[p.w]));
+    /// Slabs of any vertex.
+    #[inline(always)]
+    pub fn slabs_of(&self, v: VertexId) -> Slabs {
+        match v.0.checked_sub(self.lines.first_node) {
+            None => self.slabs.of(v),
+            Some(n) => self.slabs.ground.lattice.node_at(self.lines.nodes[n as usize]).map(|i| 2 * i as u32 + 1),
         }
-        let mut at = [0; 3];
-        at[p.axis] = p.rank as usize;
-        // The lowest corner is on the square's lower line or within its layer.
-        for a in [p.u, p.w] {
-            at[a] = (low[a] as usize).div_ceil(2).saturating_sub(1);
-        }
-        self.slabs.ground.lattice.node_id(at)
     }
+}
+
+/// A counting sort: `sorted[starts[n]..starts[n + 1]]` are those of square `n`, in the order given.
+fn sort_by_square(half_edges: &[HalfEdge], count: usize, starts: &mut Vec<u32>, sorted: &mut Vec<HalfEdge>) {
+    starts.clear();
+    starts.resize(count + 1, 0);
+    half_edges.iter().for_each(|h| starts[h.square as usize] += 1);
+    let mut sum = 0;
+    for start in starts.iter_mut() {
+        sum += *start;
+        *start = sum;
+    }
+    sorted.resize(half_edges.len(), HalfEdge::default());
+    // From the back, each start moves down to where it belongs.
+    for h in half_edges.iter().rev() {
+        let start = &mut starts[h.square as usize];
+        *start -= 1;
+        sorted[*start as usize] = *h;
+    }
+}
+
+/// Traces the loops of a square, each the outer one of a face, where no two half-edges leave the same vertex. False (and nothing is
+/// written) where that is not all: a loop of surface pieces beside others may be a hole, and contradictions are to be named.
+#[inline]
+fn trace(row: &[HalfEdge], table: &Table, first_line: u32, done: &mut Vec<bool>, out: &mut Squares) -> bool {
+    let (first_loop, first_corner) = (out.loops.len(), out.loops.items.len());
+    let mut lines_in_all = true;
+    done.clear();
+    done.resize(row.len(), false);
+    let mut fails = false;
+    for start in 0..row.len() {
+        if done[start] {
+            continue;
+        }
+        let (mut at, mut has_line) = (start, false);
+        let length = out.loops.items.len();
+        loop {
+            let h = &row[at];
+            fails |= done[at];
+            done[at] = true;
+            has_line |= h.id >= first_line;
+            out.loops.items.push(h.from);
+            match table.get(h.to) {
+                Some(next) if next == start => break,
+                Some(next) if !fails => at = next,
+                _ => {
+                    fails = true;
+                    break;
+                }
+            }
+        }
+        lines_in_all &= has_line;
+        fails |= out.loops.items.len() - length < 3;
+        if fails {
+            break;
+        }
+        out.loops.end_row();
+        out.face_loops.push(out.loops.len() as u32);
+    }
+    if !fails && (lines_in_all || out.loops.len() == first_loop + 1) {
+        return true;
+    }
+    out.loops.items.truncate(first_corner);
+    out.loops.offsets.truncate(first_loop + 1);
+    out.face_loops.truncate(out.node.len() + 1);
+    false
 }
 
 impl Squares {

@@ -2,12 +2,25 @@
 //! surfaces are the zero sets of functions, and the material interface (MI), whose surfaces separate the regions
 //! where different materials are largest. Both are exact for any finite values.
 
+mod assemble;
+mod box_cubes;
+mod box_edges;
+mod check;
 pub mod data;
 pub mod domain;
+pub mod extract;
+mod mesh_cells;
+mod mesh_edges;
+mod points;
+mod polygons;
+mod sets;
+mod signs;
 pub mod simplex;
+mod table;
 pub mod tet_mesh;
 
 pub use data::{Network, SetItem, Values};
 pub use domain::{BoxGrid, Domain};
+pub use extract::extract;
 pub use simplex::Kind;
 pub use tet_mesh::TetMesh;

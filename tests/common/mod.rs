@@ -1,6 +1,7 @@
 //! What the integration tests share: readers of polygon files, where optional data lies, and small solids.
 #![allow(dead_code)]
 
+pub mod functions;
 pub mod models;
 pub mod random;
 

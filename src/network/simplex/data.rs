@@ -218,4 +218,7 @@ impl SimplexComplex {
 
 /// Working memory, reused between calls. One per thread.
 #[derive(Clone, Debug, Default)]
-pub struct Scratch {}
+pub struct Scratch {
+    pub(super) work: super::work::Work,
+    pub(super) maps: super::export::Maps,
+}

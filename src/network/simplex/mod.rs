@@ -2,10 +2,15 @@
 //! triangle, given by values at its corners (sections 4 and 5 of the networks paper). [`data`] says what comes out.
 
 pub mod arrangement;
+pub mod check;
 pub mod data;
+mod export;
 pub mod interface;
+mod split;
+mod work;
 
 pub use arrangement::arrangement;
+pub use check::check;
 pub use data::{
     Carrier, FaceSupport, Kind, LocalCell, LocalEdge, LocalFace, LocalFunction, LocalHalfFace, LocalPlane, LocalVertex,
     Scratch, SimplexComplex,

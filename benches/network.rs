@@ -1,0 +1,18 @@
+//! Times the parts of networks: `cargo bench --bench network -- PART ARGUMENTS`.
+//!
+//! - `grid FILE N [THREADS [REPEATS [ia|mi]]]`: vertices and polygons of the functions of a file on a box of N³ cubes.
+//! - `simplex [NAME]`: microseconds per arrangement and interface of one simplex, incremental.
+
+#[path = "network/grid.rs"]
+mod grid;
+#[path = "network/simplex.rs"]
+mod simplex;
+
+fn main() {
+    let arguments: Vec<String> = std::env::args().skip(1).filter(|a| a != "--bench").collect();
+    match arguments.first().map(String::as_str) {
+        Some("grid") => grid::main(&arguments[1..]),
+        Some("simplex") => simplex::main(&arguments[1..]),
+        _ => println!("usage: network grid FILE N [THREADS [REPEATS [ia|mi]]] | simplex [NAME]"),
+    }
+}
