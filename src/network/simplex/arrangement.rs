@@ -35,6 +35,7 @@ pub fn arrangement(dim: usize, values: &[f64], scratch: &mut Scratch, out: &mut 
     }
     work.flush_counters();
     export::arrangement(work, maps, dim, out);
+    debug_assert!(out.functions > 12 || super::check(out, values).is_ok(), "{:?}", super::check(out, values));
 }
 
 fn insert(work: &mut Work, dim: usize, f: usize) {
