@@ -63,7 +63,7 @@ fn insert(work: &mut Work, dim: usize, f: usize) {
             work.record_zeros(dim);
         }
     } else {
-        // Only where all the other corners' coordinates are zero.
+        // It vanishes on the corners' span where it is zero, and nowhere else.
         let zero = !(positive | negative) & 0b1111;
         match zero.count_ones() {
             4 => plane = EVERYWHERE,
