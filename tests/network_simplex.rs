@@ -125,6 +125,26 @@ impl Random {
     }
 }
 
+impl Random {
+    /// Functions that nearly vanish (materials that are nearly equal) at a common point, on a common line or on a common plane:
+    /// combinations of few functions with a zero inside, rounded.
+    fn nearly_concurrent(&mut self, n: usize, dim: usize, rank: usize) -> Values {
+        let weights: Vec<f64> = (0..=dim).map(|_| 1.5 + self.unit()).collect();
+        let base: Values = (0..rank)
+            .map(|_| {
+                let mut f: Vec<f64> = (0..=dim).map(|_| self.unit()).collect();
+                f[dim] = -(0..dim).map(|i| f[i] * weights[i]).sum::<f64>() / weights[dim];
+                f
+            })
+            .collect();
+        let combine = |r: &mut Self| -> Vec<f64> {
+            let k: Vec<f64> = base.iter().map(|_| r.unit()).collect();
+            (0..=dim).map(|i| base.iter().zip(&k).map(|(f, k)| f[i] * k).sum()).collect()
+        };
+        (0..n).map(|_| combine(self)).collect()
+    }
+}
+
 /// Rank of a matrix of rationals; and a vector of its kernel if that has one dimension.
 fn eliminate(mut m: Vec<Vec<Rational>>, columns: usize) -> (usize, Option<Vec<Rational>>) {
     let mut pivots = vec![];
@@ -295,7 +315,7 @@ const KINDS: [Kind; 2] = [Kind::Arrangement, Kind::Interface];
 
 /// Some seconds; with LAPIDARY_LONG=1 5000 simplices of each kind, some minutes.
 #[test]
-fn small_integers_agree_with_rationals() {
+fn degenerate_and_nearly_so_agree_with_rationals() {
     let long = std::env::var_os("LAPIDARY_LONG").is_some();
     let mut bench = Bench::default();
     let mut r = Random(7);
@@ -304,7 +324,8 @@ fn small_integers_agree_with_rationals() {
             for n in 1..=if long { 7 } else { 5 } {
                 for m in [1, 2, 5] {
                     for _ in 0..if long { 5000 } else { 40 } {
-                        let values = r.integers(n, dim, m);
+                        let values =
+                            if m == 5 { r.nearly_concurrent(n, dim, 1 + n % 3) } else { r.integers(n, dim, m) };
                         let found = counts(bench.run(kind, dim, &values));
                         assert_eq!(found, expected(kind, dim, &values), "{kind:?} {dim} {values:?}");
                     }
@@ -361,7 +382,11 @@ fn orders_and_scales_change_nothing() {
         for dim in [2, 3] {
             for case in 0..60 {
                 let n = 2 + case % 6;
-                let mut values = if case % 2 == 0 { r.integers(n, dim, 1) } else { r.reals(n, dim) };
+                let mut values = match case % 3 {
+                    0 => r.integers(n, dim, 1),
+                    1 => r.reals(n, dim),
+                    _ => r.nearly_concurrent(n, dim, 1 + case / 3 % 3),
+                };
                 if case % 4 == 1 {
                     // A doubled, a negated and an equal function.
                     values.push(values[0].iter().map(|x| 2.0 * x).collect());
@@ -464,6 +489,31 @@ fn planes_through_one_line_one_point_and_nearly_so() {
         .collect();
     let c = bench.run(Kind::Arrangement, 3, &values);
     assert_eq!(counts(c), expected_arrangement(3, &values));
+}
+
+/// A polygon of 80 sides, tangents of a circle around the centre, which the last function cuts in two.
+#[test]
+fn long_loops() {
+    let mut bench = Bench::default();
+    let n = 80;
+    let tangent = |k: usize| {
+        let a = (k * 33 % n) as f64 / n as f64 * std::f64::consts::TAU;
+        let corner = |t: f64| (t * std::f64::consts::TAU / 3.0 - a).cos() - 0.25;
+        vec![corner(0.0), corner(1.0), corner(2.0)]
+    };
+    let mut values: Values = (0..n).map(tangent).collect();
+    values.push(vec![0.1, -0.1, 0.0]);
+    let longest = |rows: &mut dyn Iterator<Item = usize>| rows.max().unwrap();
+    let c = bench.run(Kind::Arrangement, 2, &values);
+    assert_eq!(longest(&mut c.cell_faces.rows().map(|r| r.len())), n / 2 + 2);
+    // The same as materials around one that is zero.
+    values.insert(0, vec![0.0; 3]);
+    let c = bench.run(Kind::Interface, 2, &values);
+    assert_eq!(longest(&mut c.cell_faces.rows().map(|r| r.len())), n / 2 + 2);
+    // In a tetrahedron, the same on planes through its last corner.
+    let values: Values = values[..=n].iter().map(|f| [&f[..], &[0.0]].concat()).collect();
+    let c = bench.run(Kind::Interface, 3, &values);
+    assert_eq!(longest(&mut c.face_vertices.rows().map(|r| r.len())), n);
 }
 
 #[test]

@@ -64,6 +64,29 @@ pub fn main(wanted: &[String]) {
         measure(wanted, &format!("arrangement, {n} crossing"), (count, rounds, arrangement, 3), crossing(n));
         measure(wanted, &format!("interface, {n} random"), (count, rounds, interface, 3), reals(n, 3));
     }
+    // All through the centre; all through one line. Their values are short, so sums and multiples are exact.
+    let short = |r: &mut Random| (r.next() % 4096) as f64 - 2048.0;
+    let point = |n: usize| {
+        move |r: &mut Random| {
+            let f = |r: &mut Random| {
+                let [a, b, c] = [short(r), short(r), short(r)];
+                [a, b, c, -a - b - c]
+            };
+            (0..n).flat_map(|_| f(r)).collect::<Vec<f64>>()
+        }
+    };
+    let line = |n: usize| {
+        move |r: &mut Random| {
+            let f = |k: f64, l: f64| [k + l, l - k, k - l, -k - l];
+            (0..n).flat_map(|_| f(short(r), short(r))).collect::<Vec<f64>>()
+        }
+    };
+    for n in [4, 30] {
+        measure(wanted, &format!("arrangement, {n} through a point"), (16, 10, arrangement, 3), point(n));
+        measure(wanted, &format!("arrangement, {n} through a line"), (16, 10, arrangement, 3), line(n));
+        measure(wanted, &format!("interface, {n} equal at a point"), (16, 10, interface, 3), point(n));
+    }
+    measure(wanted, "interface, 1000 random", (2, 3, interface, 3), reals(1000, 3));
     for n in [3, 10] {
         measure(wanted, &format!("arrangement, {n} in -1, 0, 1"), (512, 20, arrangement, 3), small(n));
         measure(wanted, &format!("interface, {n} in -1, 0, 1"), (512, 20, interface, 3), small(n));

@@ -76,6 +76,10 @@ ids! {
     FunctionId,
     /// A set of functions that polygons of a network lie on.
     SetId,
+    /// A polygon of a network.
+    PolygonId,
+    /// A patch of a network: polygons connected across manifold edges.
+    PatchId,
 }
 
 /// For engines with elements of their own.

@@ -35,6 +35,7 @@ pub fn arrangement(dim: usize, values: &[f64], scratch: &mut Scratch, out: &mut 
     }
     work.flush_counters();
     export::arrangement(work, maps, dim, out);
+    debug_assert!(out.functions > 12 || super::check(out, values).is_ok(), "{:?}", super::check(out, values));
 }
 
 fn insert(work: &mut Work, dim: usize, f: usize) {
@@ -62,7 +63,7 @@ fn insert(work: &mut Work, dim: usize, f: usize) {
             work.record_zeros(dim);
         }
     } else {
-        // Only where all the other corners' coordinates are zero.
+        // It vanishes on the corners' span where it is zero, and nowhere else.
         let zero = !(positive | negative) & 0b1111;
         match zero.count_ones() {
             4 => plane = EVERYWHERE,

@@ -113,7 +113,8 @@ pub struct SimplexComplex {
 
     pub vertex_carrier: Vec<Carrier>,
     /// The encoding of section 5.1, padded with `NONE`: the point of the open carrier (of dimension d) where these functions vanish
-    /// (IA: d of them) or are equal (MI: d + 1). In degenerate places there are other choices.
+    /// (IA: d of them) or are equal (MI: d + 1), rising. In degenerate places there are other choices, and materials without a cell
+    /// may be among them.
     pub vertex_encoding: Vec<[LocalFunction; 4]>,
     /// *All* functions that vanish at each vertex (MI: all materials that are largest there), rising. IA: those that vanish everywhere
     /// are left out.

@@ -37,6 +37,7 @@ pub fn interface(dim: usize, values: &[f64], scratch: &mut Scratch, out: &mut Si
     }
     work.flush_counters();
     export::interface(work, maps, dim, out);
+    debug_assert!(out.functions > 12 || super::check(out, values).is_ok(), "{:?}", super::check(out, values));
 }
 
 fn insert(work: &mut Work, dim: usize, i: usize) {
@@ -91,9 +92,6 @@ fn cut_away(work: &mut Work, i: usize, seed: u32) {
             let half = work.half_faces[k];
             let f = half >> 1;
             let seen = work.faces[f as usize].mark >> 3 == work.round;
-            if !seen {
-                drop_edges(work, f);
-            }
             let class = work.class::<false>(f);
             match class {
                 Class::Negative => {
@@ -144,26 +142,6 @@ fn cut_away(work: &mut Work, i: usize, seed: u32) {
     for f in work.dropped_faces.drain(..) {
         work.faces[f as usize].len = 0;
         work.free_faces.push(f);
-    }
-}
-
-/// Drops the edges of a face that have a positive vertex and no negative one, before the face is cut.
-fn drop_edges(work: &mut Work, f: u32) {
-    let (at, len) = (work.faces[f as usize].at as usize, work.faces[f as usize].len as usize);
-    let mut previous = work.known_sign(work.corners[at + len - 1][0]);
-    let mut before = len - 1;
-    for k in 0..len {
-        let s = work.known_sign(work.corners[at + k][0]);
-        if s >= 0 && previous >= 0 && s + previous > 0 {
-            let e = work.corners[at + before][1];
-            let edge = &mut work.edges[e as usize];
-            if edge.mark != work.round {
-                edge.mark = work.round;
-                work.dropped_edges.push(e);
-            }
-        }
-        previous = s;
-        before = k;
     }
 }
 

@@ -6,6 +6,7 @@ pub mod check;
 pub mod data;
 mod export;
 pub mod interface;
+mod signs;
 mod split;
 mod work;
 

@@ -14,7 +14,21 @@
 
 use super::work::{Class, Edge, FACETS, Face, NONE, State, Work};
 
-/// A face's class this round, and whether it has a vertex where the function vanishes.
+/// What the signs around a face say.
+struct LoopSigns {
+    negative: bool,
+    zero: bool,
+    positive: bool,
+    /// If crossed: the first corner of the positive run, and the first behind it.
+    up: u32,
+    down: u32,
+    /// The corner before an edge that is zero at both ends.
+    zero_edge: u32,
+    /// Edges (by the corners before them) with a positive end and no negative one.
+    dropped: u64,
+}
+
+/// In a face's mark: it has a vertex where the function vanishes.
 const TOUCHED: u32 = 4;
 
 impl Work {
@@ -38,46 +52,113 @@ impl Work {
 
     fn new_class<const KEEP: bool>(&mut self, f: u32) -> u32 {
         let Face { at, len, .. } = self.faces[f as usize];
-        let (at, len) = (at as usize, len as usize);
-        for k in at..at + len {
+        let corners = at as usize..(at + len) as usize;
+        for k in corners.clone() {
             let v = self.corners[k][0];
             self.sign(v);
         }
-        let (vertices, corners) = (&self.vertices[..], &self.corners[at..at + len]);
-        // 0, 1, 2: negative, zero, positive.
-        let sign = |corner: &[u32; 2]| vertices[corner[0] as usize].mark & 3;
-        let mut previous = sign(&corners[len - 1]);
-        // Where the positive run starts and where it has ended; the corner before a zero edge.
-        let (mut up, mut down, mut zero_edge) = (0, 0, NONE);
-        // Bits for signs seen.
-        let mut seen = 0u32;
-        for (k, corner) in corners.iter().enumerate() {
-            let s = sign(corner);
-            seen |= 1 << s;
-            // Positive or not has changed.
-            if (s ^ previous) & 2 != 0 {
-                if s == 2 { up = k } else { down = k }
-            }
-            if s & previous & 1 != 0 {
-                zero_edge = if k == 0 { len - 1 } else { k - 1 } as u32;
-            }
-            previous = s;
+        let signs = if len <= 64 { self.few_signs(corners.clone()) } else { self.many_signs(corners.clone()) };
+        if !KEEP && signs.positive {
+            self.drop_edges(corners, signs.dropped);
         }
-        let class = match seen & 0b101 {
-            0b001 => Class::Negative,
-            0b100 => Class::Positive,
-            0b101 => Class::Crossed,
-            _ => Class::Zero,
+        let class = match (signs.negative, signs.positive) {
+            (true, false) => Class::Negative,
+            (false, true) => Class::Positive,
+            (true, true) => Class::Crossed,
+            (false, false) => Class::Zero,
         };
         if class == Class::Crossed {
-            self.cut_face::<KEEP>(f, up, down);
+            self.cut_face::<KEEP>(f, signs.up as usize, signs.down as usize);
         } else {
-            self.faces[f as usize].cut = zero_edge;
+            self.faces[f as usize].cut = signs.zero_edge;
         }
-        let touched = if seen & 0b010 != 0 { TOUCHED } else { 0 };
+        let touched = if signs.zero { TOUCHED } else { 0 };
         let mark = self.round << 3 | touched | class as u32;
         self.faces[f as usize].mark = mark;
         mark
+    }
+
+    /// The signs around a loop of up to 64 corners, as bits.
+    #[inline(always)]
+    fn few_signs(&self, corners: std::ops::Range<usize>) -> LoopSigns {
+        let (mut positive, mut zero) = (0u64, 0u64);
+        let len = corners.len();
+        for (k, corner) in self.corners[corners].iter().enumerate() {
+            // 0, 1, 2: negative, zero, positive.
+            let s = (self.vertices[corner[0] as usize].mark & 3) as u64;
+            positive |= (s >> 1) << k;
+            zero |= (s & 1) << k;
+        }
+        let all = u64::MAX >> (64 - len);
+        let next = |bits: u64| (bits >> 1 | bits << (len - 1)) & all;
+        let before = |bits: u64| (bits << 1 | bits >> (len - 1)) & all;
+        let not_negative = positive | zero;
+        let zero_edges = zero & next(zero);
+        LoopSigns {
+            negative: not_negative != all,
+            zero: zero != 0,
+            positive: positive != 0,
+            up: (positive & !before(positive)).trailing_zeros(),
+            down: (!positive & before(positive)).trailing_zeros(),
+            zero_edge: if zero_edges != 0 { zero_edges.trailing_zeros() } else { NONE },
+            dropped: not_negative & next(not_negative) & (positive | next(positive)),
+        }
+    }
+
+    /// The same for longer ones, without `dropped`.
+    #[cold]
+    #[inline(never)]
+    fn many_signs(&self, corners: std::ops::Range<usize>) -> LoopSigns {
+        let corners = &self.corners[corners];
+        let sign = |corner: &[u32; 2]| self.vertices[corner[0] as usize].mark & 3;
+        let mut signs =
+            LoopSigns { negative: false, zero: false, positive: false, up: 0, down: 0, zero_edge: NONE, dropped: 0 };
+        let mut before = corners.len() - 1;
+        for (k, corner) in corners.iter().enumerate() {
+            let (previous, s) = (sign(&corners[before]), sign(corner));
+            match s {
+                0 => signs.negative = true,
+                1 => signs.zero = true,
+                _ => signs.positive = true,
+            }
+            if (s == 2) != (previous == 2) {
+                *(if s == 2 { &mut signs.up } else { &mut signs.down }) = k as u32;
+            }
+            if s == 1 && previous == 1 {
+                signs.zero_edge = before as u32;
+            }
+            before = k;
+        }
+        signs
+    }
+
+    /// Drops the edges of a face that have a positive vertex and no negative one, once each.
+    fn drop_edges(&mut self, corners: std::ops::Range<usize>, dropped: u64) {
+        if corners.len() <= 64 {
+            let mut rest = dropped;
+            while rest != 0 {
+                self.drop_edge(self.corners[corners.start + rest.trailing_zeros() as usize][1]);
+                rest &= rest - 1;
+            }
+            return;
+        }
+        for k in corners.clone() {
+            let [v, e] = self.corners[k];
+            let to = self.corners[if k + 1 == corners.end { corners.start } else { k + 1 }][0];
+            let (s, t) = (self.known_sign(v), self.known_sign(to));
+            if s >= 0 && t >= 0 && s + t > 0 {
+                self.drop_edge(e);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn drop_edge(&mut self, e: u32) {
+        let edge = &mut self.edges[e as usize];
+        if edge.mark != self.round {
+            edge.mark = self.round;
+            self.dropped_edges.push(e);
+        }
     }
 
     /// Cuts an edge with ends of unlike signs (once a round). Returns the new vertex and the parts next to `v` and
