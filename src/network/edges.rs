@@ -12,6 +12,7 @@ use super::Network;
 use crate::base::csr::Walk;
 use crate::base::parallel::map_ranges;
 use crate::base::{Csr, EdgeId, PolygonId, VertexId};
+use std::ops::Range;
 
 /// The edges of a network.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -107,12 +108,16 @@ pub fn walk(network: &Network, p: PolygonId, u: VertexId, v: VertexId) -> Option
 /// Sides by lower vertex: upper vertex and polygon in one word.
 struct Sides<'a>(&'a Network);
 
-impl Walk<u64> for Sides<'_> {
+// SAFETY: reads borrowed arrays alone.
+unsafe impl Walk<u64> for Sides<'_> {
+    fn positions(&self) -> usize {
+        self.0.polygon_count()
+    }
     #[inline]
-    fn walk(&self, mut visit: impl FnMut(usize, u64)) {
+    fn walk(&self, range: Range<usize>, mut visit: impl FnMut(usize, u64)) {
         let polygons = &self.0.polygons;
-        let mut start = 0;
-        for (p, &end) in polygons.offsets[1..].iter().enumerate() {
+        let mut start = polygons.offsets[range.start] as usize;
+        for (p, &end) in range.clone().zip(&polygons.offsets[range.start + 1..]) {
             let corners = &polygons.items[start..end as usize];
             start = end as usize;
             let Some(&last) = corners.last() else { continue };
@@ -126,24 +131,18 @@ impl Walk<u64> for Sides<'_> {
     }
 }
 
-/// Segments by their two vertices.
-struct Ends<'a>(&'a Network);
-
-impl Walk<PolygonId> for Ends<'_> {
-    fn walk(&self, mut visit: impl FnMut(usize, PolygonId)) {
-        for (p, corners) in self.0.polygons.rows().enumerate() {
-            corners.iter().for_each(|v| visit(v.at(), PolygonId::of(p)));
-        }
-    }
-}
-
 /// All edges of a network.
 pub fn find_edges(network: &Network) -> Edges {
     let count = network.vertex_count();
     if network.dim == 2 {
         let ends = (0..count).map(|v| [VertexId::of(v); 2]).collect();
         let ends = Csr { offsets: (0..=count as u32).collect(), items: ends };
-        return Edges { ends, polygons: Csr::from_walk(count, &Ends(network)) };
+        return Edges {
+            ends,
+            polygons: Csr::from_positions(count, network.polygon_count(), |range| {
+                range.flat_map(|p| network.polygons.row(p).iter().map(move |v| (v.at(), PolygonId::of(p))))
+            }),
+        };
     }
     let sides = Csr::from_walk(count, &Sides(network));
     let parts = map_ranges(count, 1 << 12, |range| {
