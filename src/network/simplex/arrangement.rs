@@ -49,7 +49,8 @@ fn insert(work: &mut Work, dim: usize, f: usize) {
     }
     let (mut plane, mut opposite) = (f as u32 + FACETS, false);
     if positive != 0 && negative != 0 {
-        if work.vertices.len() <= FEW {
+        work.all_signs = work.vertices.len() <= FEW;
+        if work.all_signs {
             for v in 0..work.vertices.len() as u32 {
                 work.new_sign(v);
             }

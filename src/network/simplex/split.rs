@@ -53,9 +53,10 @@ impl Work {
     fn new_class<const KEEP: bool>(&mut self, f: u32) -> u32 {
         let Face { at, len, .. } = self.faces[f as usize];
         let corners = at as usize..(at + len) as usize;
-        for k in corners.clone() {
-            let v = self.corners[k][0];
-            self.sign(v);
+        if KEEP && !self.all_signs {
+            for k in corners.clone() {
+                self.sign(self.corners[k][0]);
+            }
         }
         let signs = if len <= 64 { self.few_signs(corners.clone()) } else { self.many_signs(corners.clone()) };
         if !KEEP && signs.positive {

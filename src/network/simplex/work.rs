@@ -119,6 +119,8 @@ pub(super) struct Work {
 
     /// The round: function k is entered in round k + 1.
     pub round: u32,
+    /// Arrangement: all vertices have this round's signs. (In an interface they always do.)
+    pub all_signs: bool,
     /// Existing vertices at which the current function vanishes.
     pub zeros: Vec<u32>,
     pub stack: Vec<u32>,
