@@ -6,11 +6,11 @@
 
 use super::data::{Network, Values};
 use super::domain::Domain;
-use super::points::EdgePoints;
+use super::points::{EdgePoints, write_places};
 use super::polygons::{CarrierPoints, Marks, Pieces, reference};
 use super::sets::rank;
 use super::simplex::Kind;
-use crate::base::parallel::{concat, map_ranges, offsets, write_parts};
+use crate::base::parallel::{concat, offsets, ranges, write_parts};
 use crate::base::{Csr, Error, FunctionId, NodeId, Result, Status, VertexId};
 use crate::exact::{InTetrahedron, InTriangle, Row, round_symbolic};
 
@@ -99,17 +99,31 @@ fn functions_at(kind: Kind, values: &Values, node: NodeId, out: &mut Vec<Functio
     out.extend(all.filter(|&f| values.at(f, node) == level));
 }
 
-pub fn assemble(
+/// Arrays of all parts behind one another, with every item renamed; in place if there is one part.
+fn renamed<T: Copy + Send>(
+    parts: &mut [Pieces],
+    take: impl Fn(&mut Pieces) -> Vec<u32>,
+    rename: impl Fn(usize, u32) -> T + Sync,
+) -> Vec<T> {
+    let mut arrays: Vec<Vec<u32>> = parts.iter_mut().map(take).collect();
+    if arrays.len() == 1 {
+        return arrays.pop().expect("one part").into_iter().map(|x| rename(0, x)).collect();
+    }
+    let lengths: Vec<usize> = arrays.iter().map(Vec::len).collect();
+    write_parts(&lengths, |p, out| out.extend(arrays[p].iter().map(|&x| rename(p, x))))
+}
+
+pub fn assemble<P: EdgePoints>(
     kind: Kind,
     domain: &Domain,
     values: &Values,
-    edge_points: EdgePoints,
+    mut edge_points: P,
     marks: Marks,
     mut parts: Vec<Pieces>,
 ) -> Result<Network> {
     let nodes = NodeRanks::new(&marks);
     let (facet_first, facet_numbers) = unify(&parts);
-    let on_nodes = edge_points.len();
+    let on_nodes = edge_points.functions().len();
     let on_facets = on_nodes + nodes.nodes().count();
     let inside = on_facets + facet_first.len();
     let inside_starts = offsets(parts.iter().map(|p| p.inside_points.nodes.len()));
@@ -118,62 +132,77 @@ pub fn assemble(
         return Err(Error::new(Status::TooLarge, "2^30 vertices or more"));
     }
 
-    // Vertices behind those on edges.
-    let mut vertices = vec![edge_points.coordinates];
-    let mut vertex_nodes = vec![edge_points.nodes];
-    let mut vertex_functions = vec![edge_points.functions];
-    if total > on_nodes {
-        let mut functions = Csr::default();
-        let mut carriers = Vec::new();
-        let mut places = Vec::new();
-        for node in nodes.nodes() {
-            functions_at(kind, values, node, &mut functions.items);
-            functions.end_row();
-            carriers.push([node, NodeId::NONE, NodeId::NONE, NodeId::NONE]);
-            places.push(domain.coordinates(node));
+    // The parts of the vertices: those on edges, then nodes, then all others.
+    let mut functions = edge_points.take_functions();
+    let mut lengths = edge_points.lengths();
+    let edge_parts = lengths.len();
+    let edge_starts = offsets(lengths.iter().copied());
+    let on_node: Vec<NodeId> = nodes.nodes().collect();
+    let facet = facet_first.iter().map(|&(p, i)| (&parts[p as usize].facet_points, i as usize));
+    let inner = parts.iter().flat_map(|p| (0..p.inside_points.nodes.len()).map(move |i| (&p.inside_points, i)));
+    let others: Vec<(&CarrierPoints, usize)> = facet.chain(inner).collect();
+    let ranges = ranges(others.len(), LEAST);
+    lengths.push(on_node.len());
+    lengths.extend(ranges.iter().map(|r| r.len()));
+    let vertices = write_parts(&lengths, |p, out| {
+        if p < edge_parts {
+            write_places(kind, values, &edge_points, &functions, (p, edge_starts[p]), out);
+        } else if p == edge_parts {
+            out.extend(on_node.iter().map(|&n| domain.coordinates(n)));
+        } else {
+            out.extend(
+                others[ranges[p - edge_parts - 1].clone()].iter().map(|(x, i)| place(kind, domain, values, x, *i)),
+            );
         }
-        let facet = facet_first.iter().map(|&(p, i)| (&parts[p as usize].facet_points, i as usize));
-        let inner = parts.iter().flat_map(|p| (0..p.inside_points.nodes.len()).map(move |i| (&p.inside_points, i)));
-        let rest: Vec<(&CarrierPoints, usize)> = facet.chain(inner).collect();
-        for (points, i) in &rest {
-            functions.push_row(points.functions.row(*i));
-            carriers.push(points.nodes[*i]);
+    });
+    let vertex_nodes = write_parts(&lengths, |p, out| {
+        if p < edge_parts {
+            edge_points.edges(p, |edge, count| {
+                let [a, b] = edge.nodes;
+                (0..count).for_each(|_| out.push([a, b, NodeId::NONE, NodeId::NONE]));
+            });
+        } else if p == edge_parts {
+            out.extend(on_node.iter().map(|&n| [n, NodeId::NONE, NodeId::NONE, NodeId::NONE]));
+        } else {
+            out.extend(others[ranges[p - edge_parts - 1].clone()].iter().map(|(x, i)| x.nodes[*i]));
         }
-        vertices.push(places);
-        vertices.extend(map_ranges(rest.len(), LEAST, |range| {
-            rest[range].iter().map(|(points, i)| place(kind, domain, values, points, *i)).collect::<Vec<_>>()
-        }));
-        vertex_nodes.push(carriers);
-        vertex_functions.push(functions);
+    });
+    for &node in &on_node {
+        functions_at(kind, values, node, &mut functions.items);
+        functions.end_row();
+    }
+    for (points, i) in &others {
+        functions.push_row(points.functions.row(*i));
     }
 
     let (sets, set_ids) = rank(&parts.iter().map(|p| &p.sets).collect::<Vec<_>>());
-    let lengths: Vec<usize> = parts.iter().map(|p| p.set.len()).collect();
-    let polygon_set = write_parts(&lengths, |p, out| {
-        out.extend(parts[p].set.iter().map(|&s| set_ids[p][s as usize]));
-    });
-    let lengths: Vec<usize> = parts.iter().map(|p| p.polygons.items.len()).collect();
-    if lengths.iter().sum::<usize>() >= i32::MAX as usize {
+    drop(others);
+    let corners: usize = parts.iter().map(|p| p.polygons.items.len()).sum();
+    if corners >= i32::MAX as usize {
         return Err(Error::new(Status::TooLarge, "2^31 corners of polygons or more"));
     }
-    let items = write_parts(&lengths, |p, out| {
-        out.extend(parts[p].polygons.items.iter().map(|&r| {
-            let at = (r & !reference::TAG) as usize;
-            VertexId::of(match r & reference::TAG {
-                reference::EDGE => at,
-                reference::NODE => on_nodes + nodes.rank(at as u32) as usize,
-                reference::FACET => on_facets + facet_numbers[p][at] as usize,
-                _ => inside + inside_starts[p] + at,
-            })
-        }));
-    });
-    let starts = offsets(lengths.into_iter());
-    let mut ends: Vec<usize> = parts.iter().map(|p| p.set.len()).collect();
-    ends.push(1);
-    let polygon_offsets = write_parts(&ends, |p, out| match parts.get(p) {
-        Some(part) => out.extend(part.polygons.offsets[..part.set.len()].iter().map(|o| o + starts[p] as u32)),
-        None => out.push(starts[p] as u32),
-    });
+    let vertex = |p: usize, r: u32| {
+        let at = (r & !reference::TAG) as usize;
+        VertexId::of(match r & reference::TAG {
+            reference::EDGE => at,
+            reference::NODE => on_nodes + nodes.rank(at as u32) as usize,
+            reference::FACET => on_facets + facet_numbers[p][at] as usize,
+            _ => inside + inside_starts[p] + at,
+        })
+    };
+    let items = renamed(&mut parts, |part| std::mem::take(&mut part.polygons.items), vertex);
+    let polygon_set = renamed(&mut parts, |part| std::mem::take(&mut part.set), |p, s| set_ids[p][s as usize]);
+    let starts = offsets(parts.iter().map(|p| *p.polygons.offsets.last().expect("offsets start with 0") as usize));
+    let mut polygon_offsets = renamed(
+        &mut parts,
+        |part| {
+            let mut offsets = std::mem::take(&mut part.polygons.offsets);
+            offsets.pop();
+            offsets
+        },
+        |p, o| o + starts[p] as u32,
+    );
+    polygon_offsets.push(corners as u32);
     let mut active: Vec<u64> = Vec::new();
     for part in &parts {
         active.resize(active.len().max(part.active.len()), 0);
@@ -184,9 +213,9 @@ pub fn assemble(
         kind,
         dim: domain.dim(),
         function_count: values.len(),
-        vertices: concat(vertices),
-        vertex_nodes: concat(vertex_nodes),
-        vertex_functions: Csr::concat(vertex_functions),
+        vertices,
+        vertex_nodes,
+        vertex_functions: functions,
         polygons: Csr { offsets: polygon_offsets, items },
         polygon_set,
         polygon_tets,

@@ -10,7 +10,8 @@ use super::points::{Edge, EdgePoints, EdgeWork, Span, arrangement_points, interf
 use super::signs::{Label, SignRows, Signs};
 use super::table::{CUBE_EDGES, SLOTS};
 use crate::base::parallel::{concat, map_ranges};
-use crate::base::{FunctionId, NodeId};
+use crate::base::{Csr, FunctionId, NodeId};
+use std::ops::Range;
 
 /// Rows in one task at least.
 const LEAST: usize = 128;
@@ -28,12 +29,16 @@ pub struct EdgeWord {
     more: u32,
 }
 
-pub struct BoxEdges {
+pub struct BoxEdges<'a> {
+    grid: &'a BoxGrid,
     row_words: usize,
     /// Row r, word w, slot s: `words[(r * row_words + w) * 6 + s]`.
     words: Vec<EdgeWord>,
     more: Vec<u32>,
-    pub points: EdgePoints,
+    /// Of each point.
+    functions: Csr<FunctionId>,
+    /// Rows that were worked on together, and the number of points in them.
+    parts: Vec<(Range<usize>, usize)>,
 }
 
 impl EdgeWord {
@@ -54,7 +59,7 @@ impl EdgeWord {
     }
 }
 
-impl BoxEdges {
+impl BoxEdges<'_> {
     /// The points on an edge of the cube whose lowest node is bit `bit` of the row; it must have some.
     /// `rows`: rows of the cube's four edges along x (steps in y and z: 00, 10, 01, 11).
     #[inline(always)]
@@ -73,7 +78,7 @@ trait Rows: Sync {
     /// The edges with points of the nodes of a word; `None` if there are none.
     fn bits(&self, grid: &BoxGrid, place: Place, work: &mut Self::Work) -> Option<[u64; SLOTS]>;
     /// Appends the points of one of them.
-    fn points(&self, at: At, edge: &Edge, work: &mut Self::Work, out: &mut EdgePoints) -> u32;
+    fn points(&self, at: At, edge: &Edge, work: &mut Self::Work, out: &mut Csr<FunctionId>) -> u32;
 }
 
 /// An edge of a word, and the row and place in the row of its ends.
@@ -96,12 +101,36 @@ struct Place {
 const ENDS: [[[usize; 2]; SLOTS]; 2] =
     [[[0, 1], [0, 2], [0, 4], [1, 2], [1, 4], [2, 4]], [[0, 1], [0, 2], [0, 4], [0, 3], [0, 5], [0, 6]]];
 
-fn build<R: Rows>(grid: &BoxGrid, rows: &R) -> BoxEdges {
+/// Calls `visit` for the edges of a word that have points, in order.
+#[inline(always)]
+fn word_edges(
+    grid: &BoxGrid,
+    place: Place,
+    slot: usize,
+    mut bits: u64,
+    mut visit: impl FnMut(usize, &[usize; 2], &Edge),
+) {
+    let Place { j, k, row, word } = place;
+    let row_nodes = grid.cells()[0] + 1;
+    while bits != 0 {
+        let bit = bits.trailing_zeros() as usize;
+        bits &= bits - 1;
+        let i = word * 64 + bit;
+        let node = row * row_nodes + i;
+        let ends = &ENDS[(i + j + k) & 1][slot];
+        let place_of =
+            |s: usize| [grid.ticks(0)[i + (s & 1)], grid.ticks(1)[j + (s >> 1 & 1)], grid.ticks(2)[k + (s >> 2)]];
+        let edge = Edge { nodes: ends.map(|s| NodeId::of(node + step(grid, s))), places: ends.map(place_of) };
+        visit(bit, ends, &edge);
+    }
+}
+
+fn build<'a, R: Rows>(grid: &'a BoxGrid, rows: &R) -> BoxEdges<'a> {
     let [nx, ny, nz] = grid.cells();
     let row_words = (nx + 1).div_ceil(64);
     let parts = map_ranges((ny + 1) * (nz + 1), LEAST, |range| {
         let mut words = vec![EdgeWord::default(); range.len() * row_words * SLOTS];
-        let (mut more, mut points) = (Vec::new(), EdgePoints::default());
+        let (mut more, mut functions) = (Vec::new(), Csr::default());
         let mut work = R::Work::default();
         for row in range.clone() {
             let (j, k) = (row % (ny + 1), row / (ny + 1));
@@ -113,49 +142,76 @@ fn build<R: Rows>(grid: &BoxGrid, rows: &R) -> BoxEdges {
                         continue;
                     }
                     let out = &mut words[((row - range.start) * row_words + word) * SLOTS + slot];
-                    *out = EdgeWord { bits, several: 0, first: points.len() as u32, more: more.len() as u32 };
-                    let mut left = bits;
-                    while left != 0 {
-                        let bit = left.trailing_zeros() as usize;
-                        left &= left - 1;
-                        let i = word * 64 + bit;
-                        let node = row * (nx + 1) + i;
-                        let ends = ENDS[(i + j + k) & 1][slot];
-                        let place_of = |s: usize| {
-                            [grid.ticks(0)[i + (s & 1)], grid.ticks(1)[j + (s >> 1 & 1)], grid.ticks(2)[k + (s >> 2)]]
-                        };
-                        let edge =
-                            Edge { nodes: ends.map(|s| NodeId::of(node + step(grid, s))), places: ends.map(place_of) };
-                        let ends = ends.map(|s| [row + (s >> 1 & 1) + (s >> 2) * (ny + 1), i + (s & 1)]);
-                        let count = rows.points(At { slot, bit, ends }, &edge, &mut work, &mut points);
+                    *out = EdgeWord { bits, several: 0, first: functions.len() as u32, more: more.len() as u32 };
+                    word_edges(grid, place, slot, bits, |bit, ends, edge| {
+                        let ends = ends.map(|s| [row + (s >> 1 & 1) + (s >> 2) * (ny + 1), word * 64 + bit + (s & 1)]);
+                        let count = rows.points(At { slot, bit, ends }, edge, &mut work, &mut functions);
                         debug_assert!(count > 0);
                         if count > 1 {
                             out.several |= 1 << bit;
                             more.push(count - 1);
                         }
-                    }
+                    });
                 }
             }
         }
-        (words, more, points)
+        (range, words, more, functions)
     });
-    let (mut words, mut more, mut points) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut words, mut more, mut functions, mut ranges) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     let (mut first, mut first_more) = (0, 0);
-    for (mut w, m, p) in parts {
+    for (range, mut w, m, f) in parts {
         if first > 0 {
-            // Words without points are left alone: nobody reads them, and they stay pages of zeros.
             w.iter_mut().filter(|w| w.bits != 0).for_each(|w| {
                 w.first += first;
                 w.more += first_more;
             });
         }
-        first += p.len() as u32;
+        first += f.len() as u32;
         first_more += m.len() as u32;
         words.push(w);
         more.push(m);
-        points.push(p);
+        ranges.push((range, f.len()));
+        functions.push(f);
     }
-    BoxEdges { row_words, words: concat(words), more: concat(more), points: EdgePoints::concat(points) }
+    BoxEdges {
+        grid,
+        row_words,
+        words: concat(words),
+        more: concat(more),
+        functions: Csr::concat(functions),
+        parts: ranges,
+    }
+}
+
+impl EdgePoints for BoxEdges<'_> {
+    fn functions(&self) -> &Csr<FunctionId> {
+        &self.functions
+    }
+
+    fn take_functions(&mut self) -> Csr<FunctionId> {
+        std::mem::take(&mut self.functions)
+    }
+
+    fn lengths(&self) -> Vec<usize> {
+        self.parts.iter().map(|p| p.1).collect()
+    }
+
+    #[inline]
+    fn edges(&self, part: usize, mut visit: impl FnMut(&Edge, u32)) {
+        let rows = self.grid.cells()[1] + 1;
+        for row in self.parts[part].0.clone() {
+            for word in 0..self.row_words {
+                let place = Place { j: row % rows, k: row / rows, row, word };
+                let at = (row * self.row_words + word) * SLOTS;
+                for (slot, words) in self.words[at..at + SLOTS].iter().enumerate() {
+                    word_edges(self.grid, place, slot, words.bits, |bit, _, edge| {
+                        let count = if words.several >> bit & 1 == 1 { words.span(bit, &self.more).count } else { 1 };
+                        visit(edge, count);
+                    });
+                }
+            }
+        }
+    }
 }
 
 /// From a node to another corner of the cube whose lowest corner it is.
@@ -223,7 +279,7 @@ impl Rows for ArrangementRows<'_> {
     }
 
     #[inline]
-    fn points(&self, at: At, edge: &Edge, work: &mut Self::Work, out: &mut EdgePoints) -> u32 {
+    fn points(&self, at: At, edge: &Edge, work: &mut Self::Work, out: &mut Csr<FunctionId>) -> u32 {
         let zeros = at.ends.iter().all(|&[row, i]| self.signs.zero(row, i));
         if let ([(f, _)], false) = (&work.entries[..], zeros) {
             return arrangement_points(self.values, edge, std::iter::once(*f), false, &mut work.edge, out);
@@ -234,7 +290,7 @@ impl Rows for ArrangementRows<'_> {
 }
 
 /// The edges of a box that an arrangement crosses, and its points there.
-pub fn arrangement_edges(grid: &BoxGrid, values: &Values, signs: &SignRows) -> BoxEdges {
+pub fn arrangement_edges<'a>(grid: &'a BoxGrid, values: &Values, signs: &SignRows) -> BoxEdges<'a> {
     build(grid, &ArrangementRows { values, signs })
 }
 
@@ -297,12 +353,12 @@ impl Rows for InterfaceRows<'_> {
     }
 
     #[inline]
-    fn points(&self, _: At, edge: &Edge, work: &mut EdgeWork, out: &mut EdgePoints) -> u32 {
+    fn points(&self, _: At, edge: &Edge, work: &mut EdgeWork, out: &mut Csr<FunctionId>) -> u32 {
         interface_points(self.values, edge, work, out)
     }
 }
 
 /// The edges of a box where the largest material changes, and the points where it does.
-pub fn interface_edges(grid: &BoxGrid, values: &Values, labels: &[Label]) -> BoxEdges {
+pub fn interface_edges<'a>(grid: &'a BoxGrid, values: &Values, labels: &[Label]) -> BoxEdges<'a> {
     build(grid, &InterfaceRows { values, labels })
 }

@@ -3,6 +3,7 @@
 use super::assemble::assemble;
 use super::data::{Network, Values};
 use super::domain::{Domain, LIMIT};
+use super::points::EdgePoints;
 use super::polygons::{Context, Marks};
 use super::signs::{labels, node_signs, sign_rows};
 use super::simplex::Kind;
@@ -30,40 +31,40 @@ pub fn extract(domain: &Domain, values: &Values, kind: Kind, run: &mut Run) -> R
             run.stage("points", 0.2)?;
             let edges = box_edges::arrangement_edges(grid, values, &signs);
             run.stage("polygons", 0.5)?;
-            let context = Context { kind, domain, values, points: &edges.points, marks: &marks };
+            let context = Context { kind, domain, values, edge_functions: edges.functions(), marks: &marks };
             let parts = box_cubes::arrangement_cubes(grid, &context, &signs, &edges);
             run.stage("assemble", 0.9)?;
-            assemble(kind, domain, values, edges.points, marks, parts)
+            assemble(kind, domain, values, edges, marks, parts)
         }
         (Domain::Box(grid), Kind::Interface) => {
             let labels = labels(values, domain.node_count())?;
             run.stage("points", 0.2)?;
             let edges = box_edges::interface_edges(grid, values, &labels);
             run.stage("polygons", 0.5)?;
-            let context = Context { kind, domain, values, points: &edges.points, marks: &marks };
+            let context = Context { kind, domain, values, edge_functions: edges.functions(), marks: &marks };
             let parts = box_cubes::interface_cubes(grid, &context, &labels, &edges);
             run.stage("assemble", 0.9)?;
-            assemble(kind, domain, values, edges.points, marks, parts)
+            assemble(kind, domain, values, edges, marks, parts)
         }
         (Domain::Mesh(mesh), Kind::Arrangement) => {
             let signs = node_signs(values, domain.node_count())?;
             run.stage("points", 0.2)?;
             let edges = mesh_edges::arrangement_edges(mesh, values, &signs);
             run.stage("polygons", 0.5)?;
-            let context = Context { kind, domain, values, points: &edges.points, marks: &marks };
+            let context = Context { kind, domain, values, edge_functions: edges.functions(), marks: &marks };
             let parts = mesh_cells::arrangement_cells(mesh, &context, &signs, &edges);
             run.stage("assemble", 0.9)?;
-            assemble(kind, domain, values, edges.points, marks, parts)
+            assemble(kind, domain, values, edges, marks, parts)
         }
         (Domain::Mesh(mesh), Kind::Interface) => {
             let labels = labels(values, domain.node_count())?;
             run.stage("points", 0.2)?;
             let edges = mesh_edges::interface_edges(mesh, values, &labels);
             run.stage("polygons", 0.5)?;
-            let context = Context { kind, domain, values, points: &edges.points, marks: &marks };
+            let context = Context { kind, domain, values, edge_functions: edges.functions(), marks: &marks };
             let parts = mesh_cells::interface_cells(mesh, &context, &labels, &edges);
             run.stage("assemble", 0.9)?;
-            assemble(kind, domain, values, edges.points, marks, parts)
+            assemble(kind, domain, values, edges, marks, parts)
         }
     }?;
     run.end_stage();

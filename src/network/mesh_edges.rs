@@ -10,21 +10,53 @@ use super::table::EDGES;
 use super::tet_mesh::TetMesh;
 use crate::base::parallel::{concat, map_ranges};
 use crate::base::{Csr, FunctionId, NodeId, TetId};
+use std::ops::Range;
 
 /// Simplices or edges in one task at least.
 const LEAST: usize = 1 << 12;
 
-pub struct MeshEdges {
+pub struct MeshEdges<'a> {
+    mesh: &'a TetMesh,
     /// Active simplices, rising.
     pub active: Vec<TetId>,
     /// The number of each of their edges (as in [`EDGES`]).
     edges: Vec<[u32; 6]>,
     /// The first vertex on each edge, and the end.
     first: Vec<u32>,
-    pub points: EdgePoints,
+    /// The ends of each edge, lower first.
+    ends: Vec<[NodeId; 2]>,
+    /// Of each point.
+    functions: Csr<FunctionId>,
+    /// Edges that were worked on together.
+    parts: Vec<Range<usize>>,
 }
 
-impl MeshEdges {
+impl EdgePoints for MeshEdges<'_> {
+    fn functions(&self) -> &Csr<FunctionId> {
+        &self.functions
+    }
+
+    fn take_functions(&mut self) -> Csr<FunctionId> {
+        std::mem::take(&mut self.functions)
+    }
+
+    fn lengths(&self) -> Vec<usize> {
+        self.parts.iter().map(|r| (self.first[r.end] - self.first[r.start]) as usize).collect()
+    }
+
+    fn edges(&self, part: usize, mut visit: impl FnMut(&Edge, u32)) {
+        for e in self.parts[part].clone() {
+            visit(&edge_of(self.mesh, self.ends[e]), self.first[e + 1] - self.first[e]);
+        }
+    }
+}
+
+#[inline(always)]
+fn edge_of(mesh: &TetMesh, nodes: [NodeId; 2]) -> Edge {
+    Edge { nodes, places: nodes.map(|n| mesh.vertices[n.at()]) }
+}
+
+impl MeshEdges<'_> {
     /// The points on an edge of the simplex at a place of `active`; it must have some.
     #[inline(always)]
     pub fn span(&self, at: usize, edge: usize) -> Span {
@@ -33,12 +65,12 @@ impl MeshEdges {
     }
 }
 
-fn build(
-    mesh: &TetMesh,
+fn build<'a>(
+    mesh: &'a TetMesh,
     active: impl Fn(&[NodeId]) -> bool + Sync,
     crossed: impl Fn(NodeId, NodeId) -> bool + Sync,
-    points: impl Fn(&Edge, &mut EdgeWork, &mut EdgePoints) -> u32 + Sync,
-) -> MeshEdges {
+    points: impl Fn(&Edge, &mut EdgeWork, &mut Csr<FunctionId>) -> u32 + Sync,
+) -> MeshEdges<'a> {
     let found = concat(map_ranges(mesh.tets.len(), LEAST, |range| {
         let mut found = Vec::new();
         for t in range {
@@ -79,26 +111,28 @@ fn build(
         }
     }
     let parts = map_ranges(ends.len(), LEAST, |range| {
-        let (mut counts, mut out, mut work) = (Vec::new(), EdgePoints::default(), EdgeWork::default());
-        for &nodes in &ends[range] {
-            let edge = Edge { nodes, places: nodes.map(|n| mesh.vertices[n.at()]) };
-            counts.push(points(&edge, &mut work, &mut out));
+        let (mut counts, mut out, mut work) = (Vec::new(), Csr::default(), EdgeWork::default());
+        for &nodes in &ends[range.clone()] {
+            counts.push(points(&edge_of(mesh, nodes), &mut work, &mut out));
         }
-        (counts, out)
+        (range, counts, out)
     });
-    let (counts, parts): (Vec<_>, Vec<_>) = parts.into_iter().unzip();
-    let mut first = vec![0];
+    let (mut first, mut functions, mut ranges) = (vec![0], Vec::new(), Vec::new());
     let mut sum = 0;
-    first.extend(counts.iter().flatten().map(|n| {
-        sum += n;
-        sum
-    }));
+    for (range, counts, f) in parts {
+        first.extend(counts.iter().map(|n| {
+            sum += n;
+            sum
+        }));
+        functions.push(f);
+        ranges.push(range);
+    }
     let active = found.iter().map(|a| a.0).collect();
-    MeshEdges { active, edges: numbers, first, points: EdgePoints::concat(parts) }
+    MeshEdges { mesh, active, edges: numbers, first, ends, functions: Csr::concat(functions), parts: ranges }
 }
 
 /// Of an arrangement: active are simplices where some function is neither positive nor negative at all corners.
-pub fn arrangement_edges(mesh: &TetMesh, values: &Values, signs: &NodeSigns) -> MeshEdges {
+pub fn arrangement_edges<'a>(mesh: &'a TetMesh, values: &Values, signs: &NodeSigns) -> MeshEdges<'a> {
     let active = |nodes: &[NodeId]| (0..signs.words).any(|w| active_word(signs, nodes, w, values.len()) != 0);
     let crossed = |a, b| signs.of(a).iter().zip(signs.of(b)).any(|(a, b)| a.crossing(*b) != 0);
     build(mesh, active, crossed, |edge, work, out| {
@@ -139,7 +173,7 @@ pub fn bits(mut word: u64) -> impl Iterator<Item = usize> + Clone {
 }
 
 /// Of an interface: active are simplices where not one material alone is the largest at all corners.
-pub fn interface_edges(mesh: &TetMesh, values: &Values, labels: &[Label]) -> MeshEdges {
+pub fn interface_edges<'a>(mesh: &'a TetMesh, values: &Values, labels: &[Label]) -> MeshEdges<'a> {
     let differ = |a: NodeId, b: NodeId| labels[a.at()].difference(labels[b.at()]) != 0;
     let active = |nodes: &[NodeId]| nodes.iter().any(|&n| differ(nodes[0], n));
     let crossed = |a: NodeId, b: NodeId| {

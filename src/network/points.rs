@@ -8,43 +8,59 @@
 //! two functions that cross one edge; one rounding per point.
 
 use super::data::Values;
-use crate::base::parallel;
+use super::simplex::Kind;
+use crate::base::parallel::Writer;
 use crate::base::{Csr, FunctionId, NodeId};
 use crate::exact::{OnEdge, Row, compare_zeros, round_symbolic};
 use std::cmp::Ordering;
 
-/// Vertices on edges, in the order of their ids.
-#[derive(Default)]
-pub struct EdgePoints {
-    pub coordinates: Vec<[f64; 3]>,
-    pub nodes: Vec<[NodeId; 4]>,
-    pub functions: Csr<FunctionId>,
+/// Where the points on edges come from once they are counted: parts of consecutive ids, written one by one into the arrays of all vertices.
+pub trait EdgePoints: Sync {
+    /// All functions (materials) of each point.
+    fn functions(&self) -> &Csr<FunctionId>;
+    fn take_functions(&mut self) -> Csr<FunctionId>;
+    /// The number of points in each part.
+    fn lengths(&self) -> Vec<usize>;
+    /// Calls `visit` for the edges of a part with the number of their points, in the order of ids.
+    fn edges(&self, part: usize, visit: impl FnMut(&Edge, u32));
 }
 
-impl EdgePoints {
-    #[inline(always)]
-    pub fn len(&self) -> usize {
-        self.coordinates.len()
-    }
-
-    #[inline(always)]
-    fn push(&mut self, edge: &Edge, row: Row<'_, 2>) {
-        self.coordinates.push(round_symbolic(&OnEdge { corners: edge.places, row }));
-        let [a, b] = edge.nodes;
-        self.nodes.push([a, b, NodeId::NONE, NodeId::NONE]);
-    }
-
-    pub fn concat(parts: Vec<Self>) -> Self {
-        let (mut coordinates, mut nodes, mut functions) = (Vec::new(), Vec::new(), Vec::new());
-        for part in parts {
-            coordinates.push(part.coordinates);
-            nodes.push(part.nodes);
-            functions.push(part.functions);
+/// Correctly rounded coordinates of the points of a part.
+pub fn write_places<P: EdgePoints>(
+    kind: Kind,
+    values: &Values,
+    points: &P,
+    functions: &Csr<FunctionId>,
+    (part, first): (usize, usize),
+    out: &mut Writer<[f64; 3]>,
+) {
+    let mut v = first;
+    points.edges(part, |edge, count| {
+        for _ in 0..count {
+            out.push(place(kind, values, edge, functions.row(v)));
+            v += 1;
         }
-        Self {
-            coordinates: parallel::concat(coordinates),
-            nodes: parallel::concat(nodes),
-            functions: Csr::concat(functions),
+    });
+}
+
+/// The point of an edge where these functions vanish (materials are equal).
+#[inline(always)]
+fn place(kind: Kind, values: &Values, edge: &Edge, functions: &[FunctionId]) -> [f64; 3] {
+    let mut x = functions.iter().map(|&f| values_at(values, f, edge));
+    let first = x.next().expect("a point has a function");
+    // Some may vanish (be equal) on the whole edge; others then do not.
+    match kind {
+        Kind::Arrangement => {
+            let f = if first == [0.0; 2] {
+                x.find(|f| *f != [0.0; 2]).expect("a function crosses the edge")
+            } else {
+                first
+            };
+            round_symbolic(&OnEdge { corners: edge.places, row: Row::Values(&f) })
+        }
+        Kind::Interface => {
+            let other = x.find(|f| *f != first).expect("the largest material changes");
+            round_symbolic(&OnEdge { corners: edge.places, row: Row::Difference(&first, &other) })
         }
     }
 }
@@ -70,7 +86,7 @@ fn values_at(values: &Values, f: FunctionId, edge: &Edge) -> [f64; 2] {
     edge.nodes.map(|n| values.at(f, n))
 }
 
-/// Appends the points where functions cross an edge, and returns how many: those of `crossing`, which have opposite signs at the ends.
+/// Appends the functions of the points where functions cross an edge, and returns how many points: of those of `crossing`, which have opposite signs at the ends.
 /// `zeros`: whether some function may vanish on the whole edge.
 #[inline]
 pub fn arrangement_points(
@@ -79,13 +95,12 @@ pub fn arrangement_points(
     crossing: impl Iterator<Item = FunctionId> + Clone,
     zeros: bool,
     work: &mut EdgeWork,
-    out: &mut EdgePoints,
+    out: &mut Csr<FunctionId>,
 ) -> u32 {
     let mut rest = crossing.clone();
     let first = rest.next();
     if let (Some(f), None, false) = (first, rest.next(), zeros) {
-        out.push(edge, Row::Values(&values_at(values, f, edge)));
-        out.functions.push_row(&[f]);
+        out.push_row(&[f]);
         return 1;
     }
     several_points(values, edge, crossing, zeros, work, out)
@@ -98,7 +113,7 @@ fn several_points(
     crossing: impl Iterator<Item = FunctionId>,
     zeros: bool,
     work: &mut EdgeWork,
-    out: &mut EdgePoints,
+    out: &mut Csr<FunctionId>,
 ) -> u32 {
     work.crossings.clear();
     work.crossings.extend(crossing.map(|f| (f, values_at(values, f, edge))));
@@ -111,12 +126,11 @@ fn several_points(
     work.crossings.sort_unstable_by(|a, b| order(a, b).then(a.0.cmp(&b.0)));
     let mut count = 0;
     for same in work.crossings.chunk_by(|a, b| order(a, b) == Ordering::Equal) {
-        out.push(edge, Row::Values(&same[0].1));
-        let start = out.functions.items.len();
-        out.functions.items.extend(same.iter().map(|c| c.0));
-        out.functions.items.extend_from_slice(&work.functions);
-        out.functions.items[start..].sort_unstable();
-        out.functions.end_row();
+        let start = out.items.len();
+        out.items.extend(same.iter().map(|c| c.0));
+        out.items.extend_from_slice(&work.functions);
+        out.items[start..].sort_unstable();
+        out.end_row();
         count += 1;
     }
     count
@@ -130,11 +144,11 @@ pub fn share_material(values: &Values, a: NodeId, b: NodeId) -> bool {
     (0..values.len()).map(FunctionId::of).any(|f| values.at(f, a) == x && values.at(f, b) == y)
 }
 
-/// Appends the points of an edge where the largest material changes, and returns how many. No material may be the largest at both ends.
+/// Appends the materials of the points of an edge where the largest material changes, and returns how many points. No material may be the largest at both ends.
 ///
 /// Walks the upper envelope from the lower node: behind each point, the material with the greatest value at the other end is the largest of those
 /// tied there, and the next point is where the first of those that are greater at the other end overtakes it.
-pub fn interface_points(values: &Values, edge: &Edge, work: &mut EdgeWork, out: &mut EdgePoints) -> u32 {
+pub fn interface_points(values: &Values, edge: &Edge, work: &mut EdgeWork, out: &mut Csr<FunctionId>) -> u32 {
     let all = || (0..values.len()).map(FunctionId::of);
     let mut current = FunctionId(0);
     let mut ends = values_at(values, current, edge);
@@ -165,19 +179,18 @@ pub fn interface_points(values: &Values, edge: &Edge, work: &mut EdgeWork, out: 
             }
         }
         let Some(&(mut next, mut next_ends)) = work.crossings.first() else { return count };
-        out.push(edge, Row::Difference(&next_ends, &ends));
-        let start = out.functions.items.len();
+        let start = out.items.len();
         for &(f, x) in &work.crossings {
-            out.functions.items.push(f);
+            out.items.push(f);
             if x[1] > next_ends[1] {
                 (next, next_ends) = (f, x);
             }
         }
         // The current one, and those that equal it on the whole edge.
-        out.functions.items.push(current);
-        out.functions.items.extend(all().filter(|&f| f != current && values_at(values, f, edge) == ends));
-        out.functions.items[start..].sort_unstable();
-        out.functions.end_row();
+        out.items.push(current);
+        out.items.extend(all().filter(|&f| f != current && values_at(values, f, edge) == ends));
+        out.items[start..].sort_unstable();
+        out.end_row();
         (current, ends) = (next, next_ends);
         count += 1;
     }

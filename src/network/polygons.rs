@@ -10,7 +10,7 @@
 
 use super::data::{SetItem, Values};
 use super::domain::Domain;
-use super::points::{EdgePoints, Span};
+use super::points::Span;
 use super::sets::SetTable;
 use super::simplex::{
     Carrier, FaceSupport, Kind, LocalFace, LocalFunction, LocalVertex, Scratch, SimplexComplex, arrangement, interface,
@@ -93,7 +93,8 @@ pub struct Context<'a> {
     pub kind: Kind,
     pub domain: &'a Domain,
     pub values: &'a Values<'a>,
-    pub points: &'a EdgePoints,
+    /// Of the points on edges.
+    pub edge_functions: &'a Csr<FunctionId>,
     pub marks: &'a Marks,
 }
 
@@ -242,7 +243,7 @@ impl Pieces {
         let global = |f: &LocalFunction| self.work.functions[f.at()];
         let ids = span.first..span.first + span.count;
         let same = |id: &u32| {
-            let row = context.points.functions.row(*id as usize);
+            let row = context.edge_functions.row(*id as usize);
             match context.kind {
                 Kind::Interface => row.len() == local.len() && row.iter().zip(local).all(|(a, b)| *a == global(b)),
                 // Functions that vanish on the whole edge are at all of its points, and there is another one.

@@ -14,6 +14,9 @@ use crate::base::{Error, FunctionId, NodeId, Result, Status};
 /// Nodes in one task at least.
 const LEAST: usize = 1 << 14;
 
+/// Rows in which a function is read before the next one: memory is fetched ahead along few streams at a time only.
+const BLOCK: usize = 32;
+
 /// Sets of nodes (or functions): where values are positive, where negative.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Signs {
@@ -72,20 +75,62 @@ fn values_of<'a>(values: &Values<'a>, f: usize, first: usize, count: usize, buff
     &buffer[..count]
 }
 
+/// The signs of up to 64 values; `None` if one is not finite.
 #[inline(always)]
-fn signs_of(values: &[f64]) -> Signs {
+fn signs_of(values: &[f64]) -> Option<Signs> {
     let mut signs = Signs::default();
-    for (b, &x) in values.iter().enumerate() {
-        signs.positive |= ((x > 0.0) as u64) << b;
-        signs.negative |= ((x < 0.0) as u64) << b;
+    // Bits are set where a difference is not zero, which is NaN then.
+    let mut odd = 0;
+    let pairs = values.chunks_exact(8);
+    let rest = pairs.remainder();
+    let behind = values.len() - rest.len();
+    for (i, x) in pairs.enumerate() {
+        let (positive, negative, difference) = eight(x.try_into().expect("eight values"));
+        signs.positive |= positive << (8 * i);
+        signs.negative |= negative << (8 * i);
+        odd |= difference;
     }
-    signs
+    for (i, &x) in rest.iter().enumerate() {
+        signs.positive |= ((x > 0.0) as u64) << (behind + i);
+        signs.negative |= ((x < 0.0) as u64) << (behind + i);
+        odd |= (x - x).to_bits();
+    }
+    (odd == 0).then_some(signs)
 }
 
-/// Whether all are finite: the exponent of no value is the largest.
+/// Where eight values are positive, where negative; and the bits of all differences of a value and itself.
+#[cfg(target_arch = "x86_64")]
+#[inline(always)]
+fn eight(x: &[f64; 8]) -> (u64, u64, u64) {
+    use std::arch::x86_64::*;
+    // SAFETY: every x86-64 processor has SSE2, and these only compute. (Compilers do not find the instruction that collects sign bits, which halves
+    // the time of this stage.)
+    unsafe {
+        let zero = _mm_setzero_pd();
+        let (mut positive, mut negative, mut odd) = (0, 0, zero);
+        for k in 0..4 {
+            let v = _mm_set_pd(x[2 * k + 1], x[2 * k]);
+            positive |= _mm_movemask_pd(_mm_cmplt_pd(zero, v)) << (2 * k);
+            negative |= _mm_movemask_pd(_mm_cmplt_pd(v, zero)) << (2 * k);
+            odd = _mm_or_pd(odd, _mm_sub_pd(v, v));
+        }
+        let [low, high] = [odd, _mm_unpackhi_pd(odd, odd)].map(|x| _mm_cvtsd_f64(x).to_bits());
+        (positive as u64, negative as u64, low | high)
+    }
+}
+
+#[cfg(not(target_arch = "x86_64"))]
+#[inline(always)]
+fn eight(x: &[f64; 8]) -> (u64, u64, u64) {
+    x.iter().enumerate().fold((0, 0, 0), |(p, n, odd), (i, &x)| {
+        (p | ((x > 0.0) as u64) << i, n | ((x < 0.0) as u64) << i, odd | (x - x).to_bits())
+    })
+}
+
+/// Whether all are finite: no difference of one and itself is NaN.
 #[inline(always)]
 fn finite(values: &[f64]) -> bool {
-    values.iter().fold(true, |ok, x| ok & (x.abs() < f64::INFINITY))
+    values.iter().fold(0, |odd, x| odd | (x - x).to_bits()) == 0
 }
 
 fn not_finite(values: &Values, f: usize, first: usize, count: usize) -> Error {
@@ -102,20 +147,24 @@ pub fn sign_rows(values: &Values, row_nodes: usize, rows: usize) -> Result<SignR
     let bad = std::sync::Mutex::new(None::<(usize, usize, usize)>);
     let words = write_parts(&lengths, |p, out| {
         let mut buffer = [0.0; 64];
-        for row in parts[p].clone() {
-            for word in 0..row_words {
-                let (first, count) = (row * row_nodes + word * 64, 64.min(row_nodes - word * 64));
-                for f in 0..n {
-                    let x = values_of(values, f, first, count, &mut buffer);
-                    if !finite(x) {
+        let mut block = vec![Signs::default(); BLOCK * row_words * n];
+        for first_row in parts[p].clone().step_by(BLOCK) {
+            let rows = BLOCK.min(parts[p].end - first_row);
+            for f in 0..n {
+                for at in 0..rows * row_words {
+                    let (row, word) = (first_row + at / row_words, at % row_words);
+                    let (first, count) = (row * row_nodes + word * 64, 64.min(row_nodes - word * 64));
+                    let signs = signs_of(values_of(values, f, first, count, &mut buffer));
+                    if signs.is_none() {
                         // The first in order of nodes, whoever finds it.
                         let mut bad = bad.lock().expect("no panic while it is held");
                         let this = (first, f, count);
                         *bad = Some(bad.map_or(this, |b| b.min(this)));
                     }
-                    out.push(signs_of(x));
+                    block[at * n + f] = signs.unwrap_or_default();
                 }
             }
+            out.extend(block[..rows * row_words * n].iter().copied());
         }
     });
     if let Some((first, f, count)) = bad.into_inner().expect("no panic while it is held") {
@@ -197,27 +246,59 @@ pub fn labels(values: &Values, nodes: usize) -> Result<Vec<Label>> {
     let parts = map_ranges(nodes, LEAST, |range| {
         let mut out = Vec::with_capacity(range.len());
         let mut buffer = [0.0; 64];
-        for first in range.clone().step_by(64) {
-            let count = 64.min(range.end - first);
-            let (mut best, mut label) = ([0.0; 64], [0u32; 64]);
+        // (Labels as wide as values: two at a time.)
+        let (mut best, mut label) = ([0.0; 64 * BLOCK], [0u64; 64 * BLOCK]);
+        for block in range.clone().step_by(64 * BLOCK) {
+            let size = (64 * BLOCK).min(range.end - block);
+            label[..size].fill(0);
             for f in 0..values.len() {
-                let x = values_of(values, f, first, count, &mut buffer);
-                if !finite(x) {
-                    return Err(not_finite(values, f, first, count));
-                }
-                if f == 0 {
-                    best[..count].copy_from_slice(x);
-                    continue;
-                }
-                for i in 0..count {
-                    let (x, b) = (x[i], best[i]);
-                    label[i] = if x > b { f as u32 } else { label[i] | ((x == b) as u32) << 31 };
-                    best[i] = if x > b { x } else { b };
+                for at in (0..size).step_by(64) {
+                    let (first, count) = (block + at, 64.min(size - at));
+                    let x = values_of(values, f, first, count, &mut buffer);
+                    if !finite(x) {
+                        return Err(not_finite(values, f, first, count));
+                    }
+                    let (best, label) = (&mut best[at..at + count], &mut label[at..at + count]);
+                    if f == 0 {
+                        best.copy_from_slice(x);
+                        continue;
+                    }
+                    for ((&x, b), label) in x.iter().zip(best).zip(label) {
+                        let tied = if x == *b { *label | Label::TIE as u64 } else { *label };
+                        *label = if x > *b { f as u64 } else { tied };
+                        *b = if x > *b { x } else { *b };
+                    }
                 }
             }
-            out.extend(label[..count].iter().map(|&l| Label(l)));
+            out.extend(label[..size].iter().map(|&l| Label(l as u32)));
         }
         Ok(out)
     });
     Ok(crate::base::parallel::concat(parts.into_iter().collect::<Result<Vec<_>>>()?))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn signs_of_any_number_of_values() {
+        for n in 0..=64usize {
+            let all: Vec<f64> =
+                (0..n).map(|i| [1.0, -1.0, 0.0, -0.0, 5e-324, -f64::MAX, 3.0][(i * i + n) % 7]).collect();
+            let signs = signs_of(&all).unwrap();
+            for b in 0..64 {
+                let x = all.get(b).copied().unwrap_or(0.0);
+                assert_eq!((signs.positive >> b & 1 == 1, signs.negative >> b & 1 == 1), (x > 0.0, x < 0.0));
+            }
+            for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+                for i in 0..n {
+                    let mut all = all.clone();
+                    all[i] = bad;
+                    assert_eq!(signs_of(&all), None);
+                    assert!(!finite(&all));
+                }
+            }
+        }
+    }
 }
