@@ -79,7 +79,7 @@ fn values_of<'a>(values: &Values<'a>, f: usize, first: usize, count: usize, buff
 #[inline(always)]
 fn signs_of(values: &[f64]) -> Option<Signs> {
     let mut signs = Signs::default();
-    // Bits are set where a difference is not zero, which is NaN then.
+    // Not zero where a value is not finite.
     let mut odd = 0;
     let pairs = values.chunks_exact(8);
     let rest = pairs.remainder();
@@ -93,12 +93,12 @@ fn signs_of(values: &[f64]) -> Option<Signs> {
     for (i, &x) in rest.iter().enumerate() {
         signs.positive |= ((x > 0.0) as u64) << (behind + i);
         signs.negative |= ((x < 0.0) as u64) << (behind + i);
-        odd |= (x - x).to_bits();
+        odd |= !x.is_finite() as u64;
     }
     (odd == 0).then_some(signs)
 }
 
-/// Where eight values are positive, where negative; and the bits of all differences of a value and itself.
+/// Where eight values are positive, where negative; and something that is not 0 if one is not finite.
 #[cfg(target_arch = "x86_64")]
 #[inline(always)]
 fn eight(x: &[f64; 8]) -> (u64, u64, u64) {
@@ -112,6 +112,7 @@ fn eight(x: &[f64; 8]) -> (u64, u64, u64) {
             let v = _mm_set_pd(x[2 * k + 1], x[2 * k]);
             positive |= _mm_movemask_pd(_mm_cmplt_pd(zero, v)) << (2 * k);
             negative |= _mm_movemask_pd(_mm_cmplt_pd(v, zero)) << (2 * k);
+            // 0 or NaN.
             odd = _mm_or_pd(odd, _mm_sub_pd(v, v));
         }
         let [low, high] = [odd, _mm_unpackhi_pd(odd, odd)].map(|x| _mm_cvtsd_f64(x).to_bits());
@@ -123,14 +124,13 @@ fn eight(x: &[f64; 8]) -> (u64, u64, u64) {
 #[inline(always)]
 fn eight(x: &[f64; 8]) -> (u64, u64, u64) {
     x.iter().enumerate().fold((0, 0, 0), |(p, n, odd), (i, &x)| {
-        (p | ((x > 0.0) as u64) << i, n | ((x < 0.0) as u64) << i, odd | (x - x).to_bits())
+        (p | ((x > 0.0) as u64) << i, n | ((x < 0.0) as u64) << i, odd | !x.is_finite() as u64)
     })
 }
 
-/// Whether all are finite: no difference of one and itself is NaN.
 #[inline(always)]
 fn finite(values: &[f64]) -> bool {
-    values.iter().fold(0, |odd, x| odd | (x - x).to_bits()) == 0
+    values.iter().fold(true, |ok, x| ok & (x.abs() < f64::INFINITY))
 }
 
 fn not_finite(values: &Values, f: usize, first: usize, count: usize) -> Error {
