@@ -25,6 +25,7 @@ const SOURCES: &[&str] = &[
     "grid_cells",
     "grid_moments",
     "grid_fluid",
+    "simplex",
 ];
 
 fn main() {

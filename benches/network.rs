@@ -1,8 +1,12 @@
 //! Times the parts of networks: `cargo bench --bench network -- PART ARGUMENTS`.
 //!
 //! - `grid FILE N [THREADS [REPEATS [ia|mi]]]`: vertices and polygons of the functions of a file on a box of N³ cubes.
+//! - `degeneracies [COUNT]`: how often near-degenerate inputs give the same complex in two orders (Table 1 of the paper); with
+//!   `--features plain-signs` also if signs are those of plain doubles.
 //! - `simplex [NAME]`: microseconds per arrangement and interface of one simplex, incremental.
 
+#[path = "network/degeneracies.rs"]
+mod degeneracies;
 #[path = "network/grid.rs"]
 mod grid;
 #[path = "network/simplex.rs"]
@@ -12,7 +16,8 @@ fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).filter(|a| a != "--bench").collect();
     match arguments.first().map(String::as_str) {
         Some("grid") => grid::main(&arguments[1..]),
+        Some("degeneracies") => degeneracies::main(&arguments[1..]),
         Some("simplex") => simplex::main(&arguments[1..]),
-        _ => println!("usage: network grid FILE N [THREADS [REPEATS [ia|mi]]] | simplex [NAME]"),
+        _ => println!("usage: network grid FILE N [THREADS [REPEATS [ia|mi]]] | simplex [NAME] | degeneracies [COUNT]"),
     }
 }

@@ -156,6 +156,17 @@ module lapidary
   integer(c_int32_t), parameter, public :: LAP_REGION_SURFACE = -2
   ! Where a point is: outside the block's closed box.
   integer(c_int32_t), parameter, public :: LAP_REGION_BEYOND = -3
+  ! The arrangement (IA): the planes where a function is zero divide the simplex.
+  integer(c_int32_t), parameter, public :: LAP_SIMPLEX_ARRANGEMENT = 0
+  ! The material interface (MI): cells are where a material is the largest.
+  integer(c_int32_t), parameter, public :: LAP_SIMPLEX_INTERFACE = 1
+  ! A face in a facet of the simplex; its positive side is the simplex. ids: the corner opposite to the facet
+  integer(c_int32_t), parameter, public :: LAP_SIMPLEX_FACET = 0
+  ! A face on the plane of a function, inside the simplex; positive where the function is. ids: the lowest such function
+  integer(c_int32_t), parameter, public :: LAP_SIMPLEX_FUNCTION = 1
+  ! A face between two materials; positive where the first is larger. ids: the owners of the cells on its positive and
+  ! on its negative side, the first one lower
+  integer(c_int32_t), parameter, public :: LAP_SIMPLEX_PAIR = 2
   ! Handle lap_certified (type(c_ptr)). A complex as triangles over doubles that were checked exactly, repaired where
   ! rounding had made triangles meet, and a report. Immutable: a const handle may be used from many threads at once.
   !
@@ -196,6 +207,26 @@ module lapidary
   ! Handle lap_mesh (type(c_ptr)). A closed triangle mesh that bounds a solid: the triangles of every edge balance in
   ! orientation, solids are oriented outward and voids inward. Any genus, several components, voids, non-manifold edges
   ! and vertices. A const handle may be used from many threads at once; only lap_mesh_update_coordinates changes a mesh.
+  ! Handle lap_simplex (type(c_ptr)). The complexes of tetrahedra or triangles, each divided by linear functions that
+  ! are given by their values at its corners: cells, faces, edges and vertices, the simplex's own boundary included.
+  ! Exact for any finite values.
+  !
+  ! Faces separate cells: polygons in a tetrahedron, segments in a triangle, where there are no edges. Cells and faces
+  ! are convex, without straight corners, so the complex is fixed by the functions alone; their order changes numbers,
+  ! and nothing else. Ids count through all simplices of a call: those of simplex s are the ones between offsets that
+  ! lap_simplex_offsets tells. A simplex's own corners are its first vertices. In one whose corners are oriented the
+  ! other way than det(b - a, c - a, d - a) > 0, anticlockwise is to be read as clockwise.
+  !
+  ! Ties. Arrangement: a function that is zero everywhere, or on a lower-dimensional part of the boundary only, divides
+  ! nothing; functions with the same plane (f, 2 f, -f) share its faces. Interface: of materials that are equal
+  ! everywhere the lowest owns the cell; a material that is largest on a lower-dimensional set only has no cell and
+  ! divides nothing. All of them are named where they are zero (largest).
+  !
+  ! Half-faces: side 0 of face f, 2 f, is its positive side, side 1, 2 f + 1, its negative one. (A face of lap_complex
+  ! has its owner behind it, on side 0: that is the negative side of its normal.)
+  !
+  ! One handle is filled again and again, and keeps its memory; filling it needs it alone. Otherwise a const handle may
+  ! be used from many threads at once.
 
   public :: lap_progress
   abstract interface
@@ -2286,6 +2317,339 @@ module lapidary
       type(c_ptr), intent(inout), optional :: boxes
       integer(c_int64_t), intent(inout), optional :: n_small
       type(c_ptr), intent(inout), optional :: small
+    end function
+  end interface
+
+  public :: lap_simplex_new
+  interface
+    ! Makes a handle without simplices, to be filled by lap_simplex_compute.
+    !
+    ! simplex: receives the handle; free it with lap_simplex_free.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER. Threads: any. Cost: an allocation.
+    integer(c_int32_t) function lap_simplex_new(simplex) bind(c, name="lap_simplex_new")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), intent(inout), optional :: simplex
+    end function
+  end interface
+
+  public :: lap_simplex_free
+  interface
+    ! Frees a handle and all that was borrowed from it. NULL is allowed and does nothing.
+    !
+    ! Errors: none.
+    integer(c_int32_t) function lap_simplex_free(simplex) bind(c, name="lap_simplex_free")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value :: simplex
+    end function
+  end interface
+
+  public :: lap_simplex_compute
+  interface
+    ! Divides simplices, all alike in kind, dimension and number of functions.
+    !
+    ! Inputs (borrowed for the call): kind: LAP_SIMPLEX_ARRANGEMENT or LAP_SIMPLEX_INTERFACE; dim: 3 for tetrahedra, 2
+    ! for triangles; n_simplices: may be 0; n_functions: of each simplex, or materials; an arrangement may have none;
+    ! values: n_simplices × n_functions × (dim + 1) numbers, value (s, f, c) of function f at corner c of simplex s at
+    ! (s n_functions + f) (dim + 1) + c. simplex: what it had is replaced, and what was borrowed from it is no longer
+    ! valid; after an error it has no simplices.
+    !
+    ! Errors: LAP_ERR_BAD_ARGUMENT for a kind or dimension that there is not, a negative count, an interface of no
+    ! materials, and, with a message that names function, corner and simplex, for a value that is NaN or infinite;
+    ! LAP_ERR_TOO_LARGE if the result has more elements than 32-bit indices can number; LAP_ERR_NULL_POINTER,
+    ! LAP_ERR_CANCELLED, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: of each simplex, as its complex is large: an
+    ! arrangement of n functions has up to n^3 / 6 cells, and costs n^3 steps or less; and some microseconds for the
+    ! call, so pass many at a time. Simplices are shared out among the context's threads.
+    integer(c_int32_t) function lap_simplex_compute(context, simplex, kind, dim, n_simplices, n_functions, &
+      values) bind(c, name="lap_simplex_compute")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: context
+      type(c_ptr), value :: simplex
+      integer(c_int32_t), value :: kind
+      integer(c_int32_t), value :: dim
+      integer(c_int64_t), value :: n_simplices
+      integer(c_int64_t), value :: n_functions
+      real(c_double), intent(in), optional :: values(*)
+    end function
+  end interface
+
+  public :: lap_simplex_counts
+  interface
+    ! How many elements the complexes of all simplices have together.
+    !
+    ! Outputs: each may be NULL. Errors: LAP_ERR_NULL_POINTER if simplex is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_simplex_counts(simplex, simplices, vertices, edges, faces, &
+      cells) bind(c, name="lap_simplex_counts")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: simplex
+      integer(c_int64_t), intent(inout), optional :: simplices
+      integer(c_int64_t), intent(inout), optional :: vertices
+      integer(c_int64_t), intent(inout), optional :: edges
+      integer(c_int64_t), intent(inout), optional :: faces
+      integer(c_int64_t), intent(inout), optional :: cells
+    end function
+  end interface
+
+  public :: lap_simplex_offsets
+  interface
+    ! Which elements are those of each simplex: of simplex s the vertices vertices[s] up to, not including, vertices[s +
+    ! 1], and alike the edges, faces, cells and planes.
+    !
+    ! Outputs (each may be NULL; borrowed until the handle is filled again or freed): count: the number of simplices;
+    ! vertices, edges, faces, cells, planes: count + 1 each.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if simplex is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_simplex_offsets(simplex, count, vertices, edges, faces, cells, &
+      planes) bind(c, name="lap_simplex_offsets")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: simplex
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: vertices
+      type(c_ptr), intent(inout), optional :: edges
+      type(c_ptr), intent(inout), optional :: faces
+      type(c_ptr), intent(inout), optional :: cells
+      type(c_ptr), intent(inout), optional :: planes
+    end function
+  end interface
+
+  public :: lap_simplex_vertices
+  interface
+    ! What each vertex is: the point of an open sub-simplex (corner, edge, triangle, tetrahedron; of dimension d) where
+    ! some functions are zero, or some materials equal.
+    !
+    ! Outputs (each may be NULL; borrowed until the handle is filled again or freed): count; carriers: count numbers,
+    ! bit c (1, 2, 4, 8) set for each corner c of the sub-simplex; codes: 4 × count, the d functions that are zero
+    ! there and fix the point (or the d + 1 materials that are equal), then -1; where more go through the point there
+    ! are other choices.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if simplex is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_simplex_vertices(simplex, count, carriers, &
+      codes) bind(c, name="lap_simplex_vertices")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: simplex
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: carriers
+      type(c_ptr), intent(inout), optional :: codes
+    end function
+  end interface
+
+  public :: lap_simplex_vertex_functions
+  interface
+    ! All functions that are zero at each vertex, without those that are zero everywhere, rising; or all materials that
+    ! are largest there.
+    !
+    ! Outputs (each may be NULL; borrowed until the handle is filled again or freed): count: the number of vertices;
+    ! offsets: count + 1; functions: those of vertex v are functions[offsets[v]] up to, not including,
+    ! functions[offsets[v + 1]].
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if simplex is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_simplex_vertex_functions(simplex, count, offsets, &
+      functions) bind(c, name="lap_simplex_vertex_functions")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: simplex
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: offsets
+      type(c_ptr), intent(inout), optional :: functions
+    end function
+  end interface
+
+  public :: lap_simplex_edges
+  interface
+    ! The edges of tetrahedra; there are none in triangles.
+    !
+    ! Outputs (each may be NULL; borrowed until the handle is filled again or freed): count; vertices: 2 × count.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if simplex is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_simplex_edges(simplex, count, vertices) bind(c, name="lap_simplex_edges")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: simplex
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: vertices
+    end function
+  end interface
+
+  public :: lap_simplex_faces
+  interface
+    ! The faces: in a tetrahedron the corners of each polygon, anticlockwise as seen from its positive side; in a
+    ! triangle the two ends of each segment, its positive side on the left of the way from the first to the second.
+    !
+    ! Outputs (each may be NULL; borrowed until the handle is filled again or freed): count; offsets: count + 1, face f
+    ! has the corners offsets[f] up to, not including, offsets[f + 1]; vertices: the vertex of each corner; edges: the
+    ! edge from each corner to the next of its face (from the last to the first), NULL in triangles.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if simplex is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_simplex_faces(simplex, count, offsets, vertices, &
+      edges) bind(c, name="lap_simplex_faces")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: simplex
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: offsets
+      type(c_ptr), intent(inout), optional :: vertices
+      type(c_ptr), intent(inout), optional :: edges
+    end function
+  end interface
+
+  public :: lap_simplex_face_supports
+  interface
+    ! What each face lies on, and the cells on its two sides.
+    !
+    ! Outputs (each may be NULL; borrowed until the handle is filled again or freed): count; kinds: count numbers
+    ! LAP_SIMPLEX_FACET, LAP_SIMPLEX_FUNCTION or LAP_SIMPLEX_PAIR; ids: 2 × count, as these say, -1 where unused;
+    ! planes: for each face the plane that it lies on (see lap_simplex_planes); cells: 2 × count, those on its positive
+    ! and on its negative side, -1 outside of the simplex.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if simplex is NULL. Threads: any. Cost: kinds and ids: linear at the first call, then
+    ! none.
+    integer(c_int32_t) function lap_simplex_face_supports(simplex, count, kinds, ids, planes, &
+      cells) bind(c, name="lap_simplex_face_supports")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: simplex
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: kinds
+      type(c_ptr), intent(inout), optional :: ids
+      type(c_ptr), intent(inout), optional :: planes
+      type(c_ptr), intent(inout), optional :: cells
+    end function
+  end interface
+
+  public :: lap_simplex_planes
+  interface
+    ! Planes that faces lie on, with all functions that are zero on them, rising, without those that are zero
+    ! everywhere. Arrangement: those of a simplex are its facets (facet c is opposite to corner c; functions may be zero
+    ! there as well), then planes inside, which all coplanar faces share. Interface: one for each face, with all
+    ! materials that are largest on the whole face.
+    !
+    ! Outputs (each may be NULL; borrowed until the handle is filled again or freed): count; offsets: count + 1;
+    ! functions: those of plane p are functions[offsets[p]] up to, not including, functions[offsets[p + 1]]; opposite:
+    ! arrangement: for each of these functions 1 where it is negative on the positive side of the plane, 0 where it is
+    ! positive; interface: NULL.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if simplex is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_simplex_planes(simplex, count, offsets, functions, &
+      opposite) bind(c, name="lap_simplex_planes")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: simplex
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: offsets
+      type(c_ptr), intent(inout), optional :: functions
+      type(c_ptr), intent(inout), optional :: opposite
+    end function
+  end interface
+
+  public :: lap_simplex_cells
+  interface
+    ! The half-faces that bound each cell.
+    !
+    ! Outputs (each may be NULL; borrowed until the handle is filled again or freed): count: the number of cells;
+    ! offsets: count + 1; half_faces: those of cell c are half_faces[offsets[c]] up to, not including,
+    ! half_faces[offsets[c + 1]]; 2 f where the cell is on the positive side of face f, 2 f + 1 where it is on the
+    ! negative one.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if simplex is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_simplex_cells(simplex, count, offsets, &
+      half_faces) bind(c, name="lap_simplex_cells")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: simplex
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: offsets
+      type(c_ptr), intent(inout), optional :: half_faces
+    end function
+  end interface
+
+  public :: lap_simplex_cell_signs
+  interface
+    ! The sign of every function in each cell of an arrangement.
+    !
+    ! Outputs (each may be NULL; borrowed until the handle is filled again or freed): count: the number of cells;
+    ! functions: n, the number of functions; signs: count × n, sign (c, f) at c n + f: -1, 1, or 0 where the function
+    ! is zero on the whole simplex.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if simplex is NULL; LAP_ERR_BAD_ARGUMENT for an interface. Threads: any. Cost: linear
+    ! at the first call, then none.
+    integer(c_int32_t) function lap_simplex_cell_signs(simplex, count, functions, &
+      signs) bind(c, name="lap_simplex_cell_signs")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: simplex
+      integer(c_int64_t), intent(inout), optional :: count
+      integer(c_int64_t), intent(inout), optional :: functions
+      type(c_ptr), intent(inout), optional :: signs
+    end function
+  end interface
+
+  public :: lap_simplex_cell_materials
+  interface
+    ! The material of each cell of an interface.
+    !
+    ! Outputs (each may be NULL; borrowed until the handle is filled again or freed): count: the number of cells;
+    ! owners: count numbers, the lowest material that is largest in the cell; offsets: count + 1; materials: all that
+    ! are, which are equal everywhere, rising: those of cell c are materials[offsets[c]] up to, not including,
+    ! materials[offsets[c + 1]].
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if simplex is NULL; LAP_ERR_BAD_ARGUMENT for an arrangement. Threads: any. Cost:
+    ! none.
+    integer(c_int32_t) function lap_simplex_cell_materials(simplex, count, owners, offsets, &
+      materials) bind(c, name="lap_simplex_cell_materials")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: simplex
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: owners
+      type(c_ptr), intent(inout), optional :: offsets
+      type(c_ptr), intent(inout), optional :: materials
+    end function
+  end interface
+
+  public :: lap_simplex_vertex_exact
+  interface
+    ! The exact barycentric coordinates of a vertex, one for each corner of its simplex, as canonical strings, "num/den"
+    ! or "num" for an integer, in decimal. They are not negative, and their sum is 1. A GMP or CGAL rational reads them.
+    !
+    ! Outputs (each may be NULL): a, b, c, d: valid until the next call with this context; d is "0" in a triangle.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BAD_ARGUMENT for a vertex that is not there, LAP_ERR_OUT_OF_MEMORY,
+    ! LAP_ERR_BUSY. Cost: some microseconds.
+    integer(c_int32_t) function lap_simplex_vertex_exact(context, simplex, vertex, a, b, c, &
+      d) bind(c, name="lap_simplex_vertex_exact")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value :: context
+      type(c_ptr), value :: simplex
+      integer(c_int32_t), value :: vertex
+      type(c_ptr), intent(inout), optional :: a
+      type(c_ptr), intent(inout), optional :: b
+      type(c_ptr), intent(inout), optional :: c
+      type(c_ptr), intent(inout), optional :: d
+    end function
+  end interface
+
+  public :: lap_simplex_cell_volume_exact
+  interface
+    ! The exact volume of a cell as a part of its simplex's volume (in a triangle: area), as a canonical string,
+    ! "num/den" or "num" for an integer, in decimal. Those of the cells of a simplex have the sum 1.
+    !
+    ! volume: valid until the next call with this context.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BAD_ARGUMENT for a cell that is not there, LAP_ERR_OUT_OF_MEMORY,
+    ! LAP_ERR_BUSY. Cost: some microseconds for each corner of each face.
+    integer(c_int32_t) function lap_simplex_cell_volume_exact(context, simplex, cell, &
+      volume) bind(c, name="lap_simplex_cell_volume_exact")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value :: context
+      type(c_ptr), value :: simplex
+      integer(c_int32_t), value :: cell
+      type(c_ptr), intent(inout), optional :: volume
+    end function
+  end interface
+
+  public :: lap_simplex_check
+  interface
+    ! Checks that the complexes are consistent: indices in range, faces closed, between the cells that name them and
+    ! oriented as they say, cells closed.
+    !
+    ! Errors: LAP_ERR_INCONSISTENT with a message that names the element; LAP_ERR_NULL_POINTER, LAP_ERR_OUT_OF_MEMORY,
+    ! LAP_ERR_BUSY. Cost: linear.
+    integer(c_int32_t) function lap_simplex_check(context, simplex) bind(c, name="lap_simplex_check")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value :: context
+      type(c_ptr), value :: simplex
     end function
   end interface
 

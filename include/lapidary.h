@@ -180,6 +180,24 @@
 /* Where a point is: outside the block's closed box. */
 #define LAP_REGION_BEYOND -3
 
+/* The arrangement (IA): the planes where a function is zero divide the simplex. */
+#define LAP_SIMPLEX_ARRANGEMENT 0
+
+/* The material interface (MI): cells are where a material is the largest. */
+#define LAP_SIMPLEX_INTERFACE 1
+
+/* A face in a facet of the simplex; its positive side is the simplex. ids: the corner opposite to the facet */
+#define LAP_SIMPLEX_FACET 0
+
+/* A face on the plane of a function, inside the simplex; positive where the function is. ids: the lowest such function */
+#define LAP_SIMPLEX_FUNCTION 1
+
+/*
+ A face between two materials; positive where the first is larger. ids: the owners of the cells on its positive and on its
+ negative side, the first one lower
+ */
+#define LAP_SIMPLEX_PAIR 2
+
 /*
  A complex as triangles over doubles that were checked exactly, repaired where rounding had made triangles meet, and a
  report. Immutable: a const handle may be used from many threads at once.
@@ -242,6 +260,29 @@ typedef struct lap_grid lap_grid;
  handle may be used from many threads at once; only lap_mesh_update_coordinates changes a mesh.
  */
 typedef struct lap_mesh lap_mesh;
+
+/*
+ The complexes of tetrahedra or triangles, each divided by linear functions that are given by their values at its corners:
+ cells, faces, edges and vertices, the simplex's own boundary included. Exact for any finite values.
+
+ Faces separate cells: polygons in a tetrahedron, segments in a triangle, where there are no edges. Cells and faces are convex,
+ without straight corners, so the complex is fixed by the functions alone; their order changes numbers, and nothing else. Ids
+ count through all simplices of a call: those of simplex s are the ones between offsets that lap_simplex_offsets
+ tells. A simplex's own corners are its first vertices. In one whose corners are oriented the other way than
+ det(b - a, c - a, d - a) > 0, anticlockwise is to be read as clockwise.
+
+ Ties. Arrangement: a function that is zero everywhere, or on a lower-dimensional part of the boundary only, divides nothing;
+ functions with the same plane (f, 2 f, -f) share its faces. Interface: of materials that are equal everywhere the lowest owns the
+ cell; a material that is largest on a lower-dimensional set only has no cell and divides nothing. All of them are named
+ where they are zero (largest).
+
+ Half-faces: side 0 of face f, 2 f, is its positive side, side 1, 2 f + 1, its negative one. (A face of lap_complex has its owner
+ behind it, on side 0: that is the negative side of its normal.)
+
+ One handle is filled again and again, and keeps its memory; filling it needs it alone. Otherwise a const handle may be
+ used from many threads at once.
+ */
+typedef struct lap_simplex lap_simplex;
 
 /*
  Progress of a call: the name of its stage (valid during the callback) and the fraction of the whole call that is
@@ -1831,6 +1872,247 @@ int32_t lap_grid_aggregate(struct lap_context *context,
                            const int32_t **boxes,
                            int64_t *n_small,
                            const int32_t **small);
+
+/*
+ Makes a handle without simplices, to be filled by lap_simplex_compute.
+
+ simplex: receives the handle; free it with lap_simplex_free.
+
+ Errors: LAP_ERR_NULL_POINTER. Threads: any. Cost: an allocation.
+ */
+int32_t lap_simplex_new(struct lap_simplex **simplex);
+
+/*
+ Frees a handle and all that was borrowed from it. NULL is allowed and does nothing.
+
+ Errors: none.
+ */
+int32_t lap_simplex_free(struct lap_simplex *simplex);
+
+/*
+ Divides simplices, all alike in kind, dimension and number of functions.
+
+ Inputs (borrowed for the call): kind: LAP_SIMPLEX_ARRANGEMENT or LAP_SIMPLEX_INTERFACE; dim: 3 for tetrahedra, 2 for
+ triangles; n_simplices: may be 0; n_functions: of each simplex, or materials; an arrangement may have none; values:
+ n_simplices × n_functions × (dim + 1) numbers, value (s, f, c) of function f at corner c of simplex s at
+ (s n_functions + f) (dim + 1) + c.
+ simplex: what it had is replaced, and what was borrowed from it is no longer valid; after an error it has no simplices.
+
+ Errors: LAP_ERR_BAD_ARGUMENT for a kind or dimension that there is not, a negative count, an interface of no materials, and, with a
+ message that names function, corner and simplex, for a value that is NaN or infinite; LAP_ERR_TOO_LARGE if the result has
+ more elements than 32-bit indices can number; LAP_ERR_NULL_POINTER, LAP_ERR_CANCELLED, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY.
+ Cost: of each simplex, as its complex is large: an arrangement of n functions has up to n^3 / 6 cells, and costs
+ n^3 steps or less; and some microseconds for the call, so pass many at a time. Simplices are shared out among the context's threads.
+ */
+int32_t lap_simplex_compute(struct lap_context *context,
+                            struct lap_simplex *simplex,
+                            int32_t kind,
+                            int32_t dim,
+                            int64_t n_simplices,
+                            int64_t n_functions,
+                            const double *values);
+
+/*
+ How many elements the complexes of all simplices have together.
+
+ Outputs: each may be NULL. Errors: LAP_ERR_NULL_POINTER if simplex is NULL. Threads: any. Cost: none.
+ */
+int32_t lap_simplex_counts(const struct lap_simplex *simplex,
+                           int64_t *simplices,
+                           int64_t *vertices,
+                           int64_t *edges,
+                           int64_t *faces,
+                           int64_t *cells);
+
+/*
+ Which elements are those of each simplex: of simplex s the vertices vertices[s] up to, not including, vertices[s + 1],
+ and alike the edges, faces, cells and planes.
+
+ Outputs (each may be NULL; borrowed until the handle is filled again or freed): count: the number of simplices; vertices, edges,
+ faces, cells, planes: count + 1 each.
+
+ Errors: LAP_ERR_NULL_POINTER if simplex is NULL. Threads: any. Cost: none.
+ */
+int32_t lap_simplex_offsets(const struct lap_simplex *simplex,
+                            int64_t *count,
+                            const int32_t **vertices,
+                            const int32_t **edges,
+                            const int32_t **faces,
+                            const int32_t **cells,
+                            const int32_t **planes);
+
+/*
+ What each vertex is: the point of an open sub-simplex (corner, edge, triangle, tetrahedron; of dimension d) where some
+ functions are zero, or some materials equal.
+
+ Outputs (each may be NULL; borrowed until the handle is filled again or freed): count; carriers: count numbers, bit c (1, 2, 4, 8)
+ set for each corner c of the sub-simplex; codes: 4 × count, the d functions that are zero there and fix the point (or the
+ d + 1 materials that are equal), then -1; where more go through the point there are other choices.
+
+ Errors: LAP_ERR_NULL_POINTER if simplex is NULL. Threads: any. Cost: none.
+ */
+int32_t lap_simplex_vertices(const struct lap_simplex *simplex,
+                             int64_t *count,
+                             const uint8_t **carriers,
+                             const int32_t **codes);
+
+/*
+ All functions that are zero at each vertex, without those that are zero everywhere, rising; or all materials that are largest
+ there.
+
+ Outputs (each may be NULL; borrowed until the handle is filled again or freed): count: the number of vertices; offsets:
+ count + 1; functions: those of vertex v are functions[offsets[v]] up to, not including, functions[offsets[v + 1]].
+
+ Errors: LAP_ERR_NULL_POINTER if simplex is NULL. Threads: any. Cost: none.
+ */
+int32_t lap_simplex_vertex_functions(const struct lap_simplex *simplex,
+                                     int64_t *count,
+                                     const int32_t **offsets,
+                                     const int32_t **functions);
+
+/*
+ The edges of tetrahedra; there are none in triangles.
+
+ Outputs (each may be NULL; borrowed until the handle is filled again or freed): count; vertices: 2 × count.
+
+ Errors: LAP_ERR_NULL_POINTER if simplex is NULL. Threads: any. Cost: none.
+ */
+int32_t lap_simplex_edges(const struct lap_simplex *simplex, int64_t *count, const int32_t **vertices);
+
+/*
+ The faces: in a tetrahedron the corners of each polygon, anticlockwise as seen from its positive side; in a triangle the two ends
+ of each segment, its positive side on the left of the way from the first to the second.
+
+ Outputs (each may be NULL; borrowed until the handle is filled again or freed): count; offsets: count + 1, face f has the corners
+ offsets[f] up to, not including, offsets[f + 1]; vertices: the vertex of each corner; edges: the edge from each corner
+ to the next of its face (from the last to the first), NULL in triangles.
+
+ Errors: LAP_ERR_NULL_POINTER if simplex is NULL. Threads: any. Cost: none.
+ */
+int32_t lap_simplex_faces(const struct lap_simplex *simplex,
+                          int64_t *count,
+                          const int32_t **offsets,
+                          const int32_t **vertices,
+                          const int32_t **edges);
+
+/*
+ What each face lies on, and the cells on its two sides.
+
+ Outputs (each may be NULL; borrowed until the handle is filled again or freed): count; kinds: count numbers
+ LAP_SIMPLEX_FACET, LAP_SIMPLEX_FUNCTION or LAP_SIMPLEX_PAIR; ids: 2 × count, as these say, -1 where unused; planes: for each
+ face the plane that it lies on (see lap_simplex_planes); cells: 2 × count, those on its positive and on its negative side, -1 outside
+ of the simplex.
+
+ Errors: LAP_ERR_NULL_POINTER if simplex is NULL. Threads: any. Cost: kinds and ids: linear at the first call, then
+ none.
+ */
+int32_t lap_simplex_face_supports(const struct lap_simplex *simplex,
+                                  int64_t *count,
+                                  const int32_t **kinds,
+                                  const int32_t **ids,
+                                  const int32_t **planes,
+                                  const int32_t **cells);
+
+/*
+ Planes that faces lie on, with all functions that are zero on them, rising, without those that are zero everywhere. Arrangement: those
+ of a simplex are its facets (facet c is opposite to corner c; functions may be zero there as well), then planes inside, which
+ all coplanar faces share. Interface: one for each face, with all materials that are largest on the whole face.
+
+ Outputs (each may be NULL; borrowed until the handle is filled again or freed): count; offsets: count + 1; functions: those of
+ plane p are functions[offsets[p]] up to, not including, functions[offsets[p + 1]]; opposite: arrangement: for each of these
+ functions 1 where it is negative on the positive side of the plane, 0 where it is positive; interface: NULL.
+
+ Errors: LAP_ERR_NULL_POINTER if simplex is NULL. Threads: any. Cost: none.
+ */
+int32_t lap_simplex_planes(const struct lap_simplex *simplex,
+                           int64_t *count,
+                           const int32_t **offsets,
+                           const int32_t **functions,
+                           const uint8_t **opposite);
+
+/*
+ The half-faces that bound each cell.
+
+ Outputs (each may be NULL; borrowed until the handle is filled again or freed): count: the number of cells; offsets: count + 1;
+ half_faces: those of cell c are half_faces[offsets[c]] up to, not including, half_faces[offsets[c + 1]]; 2 f where the cell is on the
+ positive side of face f, 2 f + 1 where it is on the negative one.
+
+ Errors: LAP_ERR_NULL_POINTER if simplex is NULL. Threads: any. Cost: none.
+ */
+int32_t lap_simplex_cells(const struct lap_simplex *simplex,
+                          int64_t *count,
+                          const int32_t **offsets,
+                          const int32_t **half_faces);
+
+/*
+ The sign of every function in each cell of an arrangement.
+
+ Outputs (each may be NULL; borrowed until the handle is filled again or freed): count: the number of cells; functions: n, the
+ number of functions; signs: count × n, sign (c, f) at c n + f: -1, 1, or 0 where the function is zero on the whole simplex.
+
+ Errors: LAP_ERR_NULL_POINTER if simplex is NULL; LAP_ERR_BAD_ARGUMENT for an interface. Threads: any. Cost: linear at the first
+ call, then none.
+ */
+int32_t lap_simplex_cell_signs(const struct lap_simplex *simplex,
+                               int64_t *count,
+                               int64_t *functions,
+                               const int32_t **signs);
+
+/*
+ The material of each cell of an interface.
+
+ Outputs (each may be NULL; borrowed until the handle is filled again or freed): count: the number of cells; owners: count numbers, the
+ lowest material that is largest in the cell; offsets: count + 1; materials: all that are, which are equal everywhere, rising: those
+ of cell c are materials[offsets[c]] up to, not including, materials[offsets[c + 1]].
+
+ Errors: LAP_ERR_NULL_POINTER if simplex is NULL; LAP_ERR_BAD_ARGUMENT for an arrangement. Threads: any. Cost: none.
+ */
+int32_t lap_simplex_cell_materials(const struct lap_simplex *simplex,
+                                   int64_t *count,
+                                   const int32_t **owners,
+                                   const int32_t **offsets,
+                                   const int32_t **materials);
+
+/*
+ The exact barycentric coordinates of a vertex, one for each corner of its simplex, as canonical strings, "num/den" or
+ "num" for an integer, in decimal. They are not negative, and their sum is 1. A GMP or CGAL rational reads them.
+
+ Outputs (each may be NULL): a, b, c, d: valid until the next call with this context; d is "0" in a triangle.
+
+ Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BAD_ARGUMENT for a vertex that is not there, LAP_ERR_OUT_OF_MEMORY,
+ LAP_ERR_BUSY. Cost: some microseconds.
+ */
+int32_t lap_simplex_vertex_exact(struct lap_context *context,
+                                 const struct lap_simplex *simplex,
+                                 int32_t vertex,
+                                 const char **a,
+                                 const char **b,
+                                 const char **c,
+                                 const char **d);
+
+/*
+ The exact volume of a cell as a part of its simplex's volume (in a triangle: area), as a canonical string, "num/den" or "num" for an
+ integer, in decimal. Those of the cells of a simplex have the sum 1.
+
+ volume: valid until the next call with this context.
+
+ Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BAD_ARGUMENT for a cell that is not there, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost:
+ some microseconds for each corner of each face.
+ */
+int32_t lap_simplex_cell_volume_exact(struct lap_context *context,
+                                      const struct lap_simplex *simplex,
+                                      int32_t cell,
+                                      const char **volume);
+
+/*
+ Checks that the complexes are consistent: indices in range, faces closed, between the cells that name them and
+ oriented as they say, cells closed.
+
+ Errors: LAP_ERR_INCONSISTENT with a message that names the element; LAP_ERR_NULL_POINTER, LAP_ERR_OUT_OF_MEMORY,
+ LAP_ERR_BUSY. Cost: linear.
+ */
+int32_t lap_simplex_check(struct lap_context *context,
+                          const struct lap_simplex *simplex);
 
 #ifdef __cplusplus
 }  // extern "C"

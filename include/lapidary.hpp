@@ -1100,6 +1100,160 @@ private:
     std::unique_ptr<lap_grid, free_it> handle_;
 };
 
+/* Linear functions, or materials, in single simplices: many in one call, into one handle that is filled again and again. */
+class simplex {
+public:
+    struct counts_t {
+        std::int64_t simplices, vertices, edges, faces, cells;
+    };
+    /* One more than there are simplices. */
+    struct offsets_t {
+        view<std::int32_t> vertices, edges, faces, cells, planes;
+    };
+    struct vertices_t {
+        view<std::uint8_t> carriers;
+        groups<std::int32_t, 4> codes;
+    };
+    struct faces_t {
+        rows<std::int32_t> vertices;
+        view<std::int32_t> edges;
+    };
+    struct supports_t {
+        view<std::int32_t> kinds;
+        groups<std::int32_t, 2> ids;
+        view<std::int32_t> planes;
+        groups<std::int32_t, 2> cells;
+    };
+    struct planes_t {
+        rows<std::int32_t> functions;
+        view<std::uint8_t> opposite;
+    };
+    struct materials_t {
+        view<std::int32_t> owners;
+        rows<std::int32_t> all;
+    };
+
+    simplex()
+    {
+        lap_simplex *made = nullptr;
+        check(lap_simplex_new(&made));
+        handle_.reset(made);
+    }
+
+    /* kind: LAP_SIMPLEX_*; values of n_simplices simplices, as for lap_simplex_compute. What was borrowed before is no longer valid. */
+    void compute(context &with, std::int32_t kind, std::int32_t dim, const std::vector<double> &values, std::int64_t n_simplices = 1)
+    {
+        const std::int64_t each = n_simplices * (dim + 1);
+        if (each <= 0 ? !values.empty() : size(values) % each != 0) {
+            throw error(LAP_ERR_BAD_ARGUMENT, "values does not hold dim + 1 numbers per function and simplex");
+        }
+        with.run(lap_simplex_compute(with.get(), handle_.get(), kind, dim, n_simplices, each <= 0 ? 0 : size(values) / each,
+                                     values.data()));
+    }
+
+    counts_t counts() const
+    {
+        counts_t n{};
+        check(lap_simplex_counts(get(), &n.simplices, &n.vertices, &n.edges, &n.faces, &n.cells));
+        return n;
+    }
+    offsets_t offsets() const
+    {
+        offsets_t o;
+        std::int64_t count = 0;
+        check(lap_simplex_offsets(get(), &count, &o.vertices.data, &o.edges.data, &o.faces.data, &o.cells.data, &o.planes.data));
+        for (view<std::int32_t> *one : {&o.vertices, &o.edges, &o.faces, &o.cells, &o.planes}) one->count = count + 1;
+        return o;
+    }
+    vertices_t vertices() const
+    {
+        vertices_t v;
+        check(lap_simplex_vertices(get(), &v.carriers.count, &v.carriers.data, &v.codes.data));
+        v.codes.count = v.carriers.count;
+        return v;
+    }
+    rows<std::int32_t> vertex_functions() const
+    {
+        rows<std::int32_t> f;
+        check(lap_simplex_vertex_functions(get(), &f.count, &f.offsets, &f.items));
+        return f;
+    }
+    groups<std::int32_t, 2> edges() const
+    {
+        groups<std::int32_t, 2> e;
+        check(lap_simplex_edges(get(), &e.count, &e.data));
+        return e;
+    }
+    faces_t faces() const
+    {
+        faces_t f;
+        check(lap_simplex_faces(get(), &f.vertices.count, &f.vertices.offsets, &f.vertices.items, &f.edges.data));
+        f.edges.count = f.edges.data == nullptr ? 0 : f.vertices.offsets[f.vertices.count];
+        return f;
+    }
+    supports_t face_supports() const
+    {
+        supports_t s;
+        check(lap_simplex_face_supports(get(), &s.kinds.count, &s.kinds.data, &s.ids.data, &s.planes.data, &s.cells.data));
+        s.ids.count = s.planes.count = s.cells.count = s.kinds.count;
+        return s;
+    }
+    planes_t planes() const
+    {
+        planes_t p;
+        check(lap_simplex_planes(get(), &p.functions.count, &p.functions.offsets, &p.functions.items, &p.opposite.data));
+        p.opposite.count = p.opposite.data == nullptr ? 0 : p.functions.offsets[p.functions.count];
+        return p;
+    }
+    /* The half-faces of each cell. */
+    rows<std::int32_t> cells() const
+    {
+        rows<std::int32_t> c;
+        check(lap_simplex_cells(get(), &c.count, &c.offsets, &c.items));
+        return c;
+    }
+    /* The signs of all functions in a cell of an arrangement. */
+    view<std::int32_t> cell_signs(std::int64_t cell) const
+    {
+        view<std::int32_t> s;
+        check(lap_simplex_cell_signs(get(), nullptr, &s.count, &s.data));
+        s.data = s.data == nullptr ? nullptr : s.data + cell * s.count;
+        return s;
+    }
+    /* Of an interface. */
+    materials_t cell_materials() const
+    {
+        materials_t m;
+        check(lap_simplex_cell_materials(get(), &m.owners.count, &m.owners.data, &m.all.offsets, &m.all.items));
+        m.all.count = m.owners.count;
+        return m;
+    }
+    std::array<std::string, 4> exact_vertex(context &with, std::int32_t vertex) const
+    {
+        const char *x[4] = {"", "", "", ""};
+        with.run(lap_simplex_vertex_exact(with.get(), get(), vertex, &x[0], &x[1], &x[2], &x[3]));
+        return {x[0], x[1], x[2], x[3]};
+    }
+    /* As a part of its simplex. */
+    std::string exact_cell_volume(context &with, std::int32_t cell) const
+    {
+        const char *volume = "";
+        with.run(lap_simplex_cell_volume_exact(with.get(), get(), cell, &volume));
+        return volume;
+    }
+    void check_consistency(context &with) const { with.run(lap_simplex_check(with.get(), get())); }
+
+    const lap_simplex *get() const { return handle_.get(); }
+
+private:
+    static std::int64_t size(const std::vector<double> &v) { return static_cast<std::int64_t>(v.size()); }
+
+    struct free_it {
+        void operator()(lap_simplex *handle) const { lap_simplex_free(handle); }
+    };
+    std::unique_ptr<lap_simplex, free_it> handle_;
+};
+
 } // namespace lapidary
 
 #endif /* LAPIDARY_HPP */

@@ -33,5 +33,6 @@ void test_complex(void);
 void test_certify(void);
 void test_keys(void);
 void test_grid(void);
+void test_simplex(void);
 
 #endif

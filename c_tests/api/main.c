@@ -95,5 +95,6 @@ int main(void)
     test_certify();
     test_keys();
     test_grid();
+    test_simplex();
     return check_result();
 }

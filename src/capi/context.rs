@@ -60,7 +60,7 @@ pub struct State {
     /// Those of the last call alone.
     pub last_counts: Counts,
     /// Exact strings of the last call.
-    pub strings: [CString; 3],
+    pub strings: [CString; 4],
     /// What the last call handed out views of.
     held: Option<Box<dyn Any + Send>>,
     /// Memory of one call is kept for the next.

@@ -251,7 +251,9 @@ pub unsafe extern "C" fn lap_complex_vertex_exact(
     with_context(context, |state, _| {
         let c = &unsafe { handle(complex) }.map_err(null_complex)?.data;
         let vertex = index(vertex, c.vertex_count()).map_err(|s| no_such("vertex", vertex, c.vertex_count(), s))?;
-        state.strings = exact_values::vertex_strings(c, VertexId::of(vertex)).map(|text| c_string(&text));
+        for (to, text) in state.strings.iter_mut().zip(exact_values::vertex_strings(c, VertexId::of(vertex))) {
+            *to = c_string(&text);
+        }
         unsafe {
             put(x, state.strings[0].as_ptr());
             put(y, state.strings[1].as_ptr());

@@ -25,5 +25,6 @@ pub mod grid_moments;
 mod guard;
 pub mod keys;
 pub mod mesh;
+pub mod simplex;
 pub mod status;
 mod view;

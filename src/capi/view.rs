@@ -2,6 +2,9 @@
 
 use crate::base::{BoxId, CellId, ComponentId, EdgeId, FaceId, NodeId, PlaneId, RegionId, Status, VertexId};
 use crate::complex::{HalfCorner, HalfFace, Key};
+use crate::network::simplex::{
+    Carrier, LocalCell, LocalEdge, LocalFace, LocalFunction, LocalHalfFace, LocalPlane, LocalVertex,
+};
 
 /// Writes through an output pointer, unless the caller does not want that output.
 ///
@@ -33,11 +36,21 @@ unsafe impl ReadAs<i32> for NodeId {}
 unsafe impl ReadAs<i32> for RegionId {}
 unsafe impl ReadAs<i32> for HalfFace {}
 unsafe impl ReadAs<i32> for HalfCorner {}
+unsafe impl ReadAs<i32> for LocalVertex {}
+unsafe impl ReadAs<i32> for LocalEdge {}
+unsafe impl ReadAs<i32> for LocalFace {}
+unsafe impl ReadAs<i32> for LocalCell {}
+unsafe impl ReadAs<i32> for LocalPlane {}
+unsafe impl ReadAs<i32> for LocalFunction {}
+unsafe impl ReadAs<i32> for LocalHalfFace {}
 unsafe impl ReadAs<i64> for i64 {}
 // A transparent pair.
 unsafe impl ReadAs<i64> for Key {}
 unsafe impl ReadAs<f64> for f64 {}
 unsafe impl ReadAs<u8> for u8 {}
+unsafe impl ReadAs<u8> for Carrier {}
+// A byte of 0 or 1.
+unsafe impl ReadAs<u8> for bool {}
 // Fixed-size groups lie flat.
 unsafe impl<To, T: ReadAs<To>, const N: usize> ReadAs<To> for [T; N] {}
 

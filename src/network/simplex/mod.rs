@@ -2,10 +2,14 @@
 //! triangle, given by values at its corners (sections 4 and 5 of the networks paper). [`data`] says what comes out.
 
 pub mod arrangement;
+pub mod batch;
 pub mod check;
 pub mod data;
+pub mod exact_values;
 mod export;
 pub mod interface;
+#[cfg(feature = "plain-signs")]
+mod plain;
 mod signs;
 mod split;
 mod work;

@@ -74,6 +74,10 @@ impl Work {
 
     #[inline(always)]
     pub fn new_sign(&mut self, v: u32) -> i32 {
+        #[cfg(feature = "plain-signs")]
+        if self.plain {
+            return self.plain_sign(v);
+        }
         let f = (self.round - 1) as usize;
         let mut sign = self.filtered_sign(f, v);
         self.filtered += 1;

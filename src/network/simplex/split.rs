@@ -58,6 +58,8 @@ impl Work {
                 self.sign(self.corners[k][0]);
             }
         }
+        #[cfg(feature = "plain-signs")]
+        self.refuse_ambiguous(f);
         let signs = if len <= 64 { self.few_signs(corners.clone()) } else { self.many_signs(corners.clone()) };
         if !KEEP && signs.positive {
             self.drop_edges(corners, signs.dropped);
@@ -320,6 +322,8 @@ impl Work {
                 break;
             }
             debug_assert!(self.corners.len() - (at as usize) <= self.vertices.len(), "a section that does not close");
+            #[cfg(feature = "plain-signs")]
+            self.refuse_endless(self.corners.len() - at as usize);
         }
         let len = self.corners.len() as u32 - at;
         debug_assert!(len >= 3);

@@ -146,6 +146,9 @@ pub(super) struct Work {
     pub first: u32,
     /// Signs that the bound has decided.
     pub filtered: u64,
+    /// See [`super::plain`].
+    #[cfg(feature = "plain-signs")]
+    pub plain: bool,
 }
 
 /// Ends of the simplex's edges.
