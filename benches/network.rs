@@ -3,6 +3,7 @@
 //! - `grid FILE N [THREADS [REPEATS [ia|mi]]]`: vertices and polygons of the functions of a file on a box of N³ cubes.
 //! - `degeneracies [COUNT]`: how often near-degenerate inputs give the same complex in two orders (Table 1 of the paper); with
 //!   `--features plain-signs` also if signs are those of plain doubles.
+//! - `regions FILE N [THREADS [REPEATS [ia|mi]]]`: the same, and all that the polygons form.
 //! - `simplex [NAME]`: microseconds per arrangement and interface of one simplex, incremental.
 
 #[path = "network/degeneracies.rs"]
@@ -15,9 +16,12 @@ mod simplex;
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).filter(|a| a != "--bench").collect();
     match arguments.first().map(String::as_str) {
-        Some("grid") => grid::main(&arguments[1..]),
+        Some("grid") => grid::main(&arguments[1..], false),
+        Some("regions") => grid::main(&arguments[1..], true),
         Some("degeneracies") => degeneracies::main(&arguments[1..]),
         Some("simplex") => simplex::main(&arguments[1..]),
-        _ => println!("usage: network grid FILE N [THREADS [REPEATS [ia|mi]]] | simplex [NAME] | degeneracies [COUNT]"),
+        _ => println!(
+            "usage: network (grid | regions) FILE N [THREADS [REPEATS [ia|mi]]] | simplex [NAME] | degeneracies [COUNT]"
+        ),
     }
 }

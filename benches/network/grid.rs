@@ -1,10 +1,13 @@
-//! Seconds per stage from node values to vertices and polygons, the minimum of repeats, and the peak memory of the process.
+//! Seconds per stage from node values to vertices and polygons, or on to regions, the minimum of repeats, and the peak memory of the process.
 
 #[path = "../../tests/common/functions.rs"]
 mod functions;
 
 use lapidary::base::Run;
 use lapidary::base::blocks::Keeper;
+use lapidary::network::local::Setting;
+use lapidary::network::regions::Method;
+use lapidary::network::topology::find_topology;
 use lapidary::network::{BoxGrid, Domain, Kind, Values, extract};
 use std::path::Path;
 
@@ -14,7 +17,7 @@ fn peak() -> f64 {
     line.split_whitespace().nth(1).and_then(|n| n.parse::<f64>().ok()).unwrap_or(f64::NAN) / 1024.0
 }
 
-pub fn main(arguments: &[String]) {
+pub fn main(arguments: &[String], regions: bool) {
     let [file, n, rest @ ..] = arguments else { panic!("FILE N") };
     let n: u32 = n.parse().expect("a number of cubes");
     let number = |i: usize, default: usize| rest.get(i).map_or(default, |t| t.parse().expect("a number"));
@@ -40,10 +43,12 @@ pub fn main(arguments: &[String]) {
         let network = pool.install(|| {
             let mut run = Run::quiet();
             let network = extract(&domain, &values, kind, &mut run).expect("a network");
-            (network, run.take_stages())
+            let setting = Setting { network: &network, domain: &domain, values };
+            let topology = regions.then(|| find_topology(&setting, Method::Automatic, &mut run).expect("regions"));
+            (network, topology, run.take_stages())
         });
         let seconds = start.elapsed().as_secs_f64();
-        let (network, stages) = network;
+        let (network, topology, stages) = network;
         least = least.min(seconds);
         if best.is_empty() {
             let active: u64 = network.active.iter().sum();
@@ -54,6 +59,18 @@ pub fn main(arguments: &[String]) {
                 network.polygon_count(),
                 network.polygons.items.len()
             );
+            if let Some(t) = topology {
+                println!(
+                    "edges {}, patches {}, chains {}, corners {}, shells {}, components {}, regions {}",
+                    t.edges.len(),
+                    t.patches.len(),
+                    t.chains.len(),
+                    t.chains.corners.len(),
+                    t.shells.len(),
+                    t.patches.component_count,
+                    t.regions.len()
+                );
+            }
             best = stages;
         } else {
             best.iter_mut().zip(stages).for_each(|(b, s)| b.1 = b.1.min(s.1));
