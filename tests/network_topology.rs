@@ -328,6 +328,21 @@ fn parts_of_boxes_against_all_cells() {
 }
 
 #[test]
+fn many_functions_in_few_simplices() {
+    let mut random = Random(4);
+    let vertices = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 1.0, 1.0]];
+    for (bound, tets) in
+        [(100, &[[0, 1, 2, 3]][..]), (100, &[[0, 1, 2, 3], [1, 2, 3, 4]]), (3, &[[0, 1, 2, 3], [4, 1, 2, 3]])]
+    {
+        let domain = Domain::Mesh(TetMesh::tets(vertices.to_vec(), tets).unwrap());
+        let arrays = random_values(&mut random, 14, vertices.len(), bound);
+        for kind in KINDS {
+            compare(&domain, &arrays, kind);
+        }
+    }
+}
+
+#[test]
 fn triangles_against_all_cells() {
     let mut random = Random(3);
     for round in 0..rounds(100) {

@@ -3,7 +3,7 @@
 //! An edge of the network is a side of a convex polygon in one closed simplex, so the smallest face of that simplex with both
 //! of its ends holds the open edge: its nodes are those of the two ends together.
 //!
-//! Cost: that of the simplices around one node.
+//! Cost: a few divisions for boxes, else that of the simplices around one node.
 
 use super::{Domain, Network};
 use crate::base::{NodeId, TetId, VertexId};
@@ -31,6 +31,17 @@ pub fn on_boundary(domain: &Domain, nodes: &[NodeId; 4], around: &mut Vec<TetId>
     let (dim, count) = (domain.dim(), node_count(nodes));
     if count > dim {
         return false;
+    }
+    if let Domain::Box(grid) = domain {
+        // All nodes in one of the six faces.
+        let (mut low, mut high) = ([true; 3], [true; 3]);
+        for place in nodes[..count].iter().map(|&n| grid.place(n)) {
+            for axis in 0..3 {
+                low[axis] &= place[axis] == 0;
+                high[axis] &= place[axis] == grid.cells()[axis];
+            }
+        }
+        return low.contains(&true) || high.contains(&true);
     }
     domain.around(&nodes[..count], around);
     if count == dim {

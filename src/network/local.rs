@@ -12,8 +12,9 @@
 use super::edges::walk;
 use super::simplex::{self, Carrier, FaceSupport, LocalCell, LocalFace, LocalVertex, Scratch, SimplexComplex};
 use super::{Domain, Kind, Network, Values};
-use crate::base::{FunctionId, NodeId, PolygonId, TetId, VertexId};
+use crate::base::{Csr, FunctionId, NodeId, PolygonId, TetId, VertexId};
 use crate::exact::Sign;
+use std::cmp::Ordering;
 
 /// A network and what it was made from.
 #[derive(Clone, Copy)]
@@ -35,7 +36,13 @@ pub struct Local {
     upright: bool,
     values: Vec<f64>,
     scratch: Scratch,
+    /// Of large complexes: vertices by carrier and functions, and the faces at each. Empty for small ones, which are looked through.
+    by_name: Vec<LocalVertex>,
+    faces_at: Csr<LocalFace>,
 }
+
+/// Complexes with more vertices get an index.
+const SMALL: usize = 64;
 
 /// What is on one side of a sector: a face that contains an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,6 +68,17 @@ impl Local {
         match setting.network.kind {
             Kind::Arrangement => simplex::arrangement(dim, &self.values, &mut self.scratch, &mut self.complex),
             Kind::Interface => simplex::interface(dim, &self.values, &mut self.scratch, &mut self.complex),
+        }
+        self.by_name.clear();
+        let complex = &self.complex;
+        let vertices = complex.vertex_count();
+        if vertices > SMALL {
+            self.by_name.extend((0..vertices).map(LocalVertex::of));
+            let name = |v: &LocalVertex| (complex.vertex_carrier[v.at()], complex.vertex_functions.row(*v));
+            self.by_name.sort_unstable_by(|a, b| name(a).cmp(&name(b)));
+            let faces = (0..complex.face_count()).map(LocalFace::of);
+            let corners = faces.flat_map(|f| complex.face_vertices.row(f).iter().map(move |v| (v.at(), f)));
+            self.faces_at.fill(vertices, corners);
         }
     }
 
@@ -93,15 +111,20 @@ impl Local {
             let Ok(k) = self.functions.binary_search(&f) else { return false };
             self.complex.kind == simplex::Kind::Arrangement && self.complex.zero_functions[k / 64] >> (k % 64) & 1 != 0
         };
-        let same = |row: &[simplex::LocalFunction]| {
-            row.iter().map(|&f| self.function(f)).eq(functions.iter().copied().filter(|&f| !vanishes(f)))
+        // Local numbers rise with the functions'.
+        let wanted = || functions.iter().copied().filter(|&f| !vanishes(f));
+        let order = |w: LocalVertex| {
+            let here = self.complex.vertex_carrier[w.at()];
+            here.cmp(&carrier).then_with(|| match carrier.dim() {
+                0 => Ordering::Equal,
+                _ => self.complex.vertex_functions.row(w).iter().map(|&f| self.function(f)).cmp(wanted()),
+            })
         };
-        let all = 0..self.complex.vertex_count();
-        let found = all.into_iter().find(|&w| {
-            self.complex.vertex_carrier[w] == carrier
-                && (carrier.dim() == 0 || same(self.complex.vertex_functions.row(w)))
-        });
-        found.map(LocalVertex::of)
+        if !self.by_name.is_empty() {
+            let at = self.by_name.binary_search_by(|&w| order(w)).ok()?;
+            return Some(self.by_name[at]);
+        }
+        (0..self.complex.vertex_count()).map(LocalVertex::of).find(|&w| order(w).is_eq())
     }
 
     /// The faces that contain the edge between two vertices of the network (in two dimensions, a vertex given twice); the direction is that
@@ -109,7 +132,11 @@ impl Local {
     pub fn walls(&self, network: &Network, [u, v]: [VertexId; 2], out: &mut Vec<Wall>) {
         out.clear();
         let (Some(u), Some(v)) = (self.vertex(network, u), self.vertex(network, v)) else { return };
-        for f in (0..self.complex.face_count()).map(LocalFace::of) {
+        let (few, all) = match self.by_name.is_empty() {
+            true => (&[][..], 0..self.complex.face_count()),
+            false => (self.faces_at.row(u), 0..0),
+        };
+        for f in few.iter().copied().chain(all.map(LocalFace::of)) {
             let corners = self.complex.face_vertices.row(f);
             let Some(at) = corners.iter().position(|&c| c == u) else { continue };
             let n = corners.len();
