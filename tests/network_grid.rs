@@ -409,7 +409,7 @@ fn samples(grid: &BoxGrid) -> [Vec<Vec<f64>>; 3] {
 
 #[test]
 fn threads_do_not_matter() {
-    let grid = cube(24);
+    let grid = cube(16);
     for arrays in samples(&grid) {
         for (domain, kind) in
             [(Domain::Box(grid.clone()), KINDS), (explicit(&grid), KINDS)].iter().flat_map(|(d, k)| k.map(|k| (d, k)))

@@ -195,7 +195,6 @@ impl NodeSigns {
 
 pub fn node_signs(values: &Values, nodes: usize) -> Result<NodeSigns> {
     let (n, words) = (values.len(), values.len().div_ceil(64));
-    let parts = ranges(nodes, LEAST);
     let signs = map_ranges(nodes, LEAST, |range| {
         let mut out = vec![Signs::default(); range.len() * words];
         let mut buffer = [0.0; 64];
@@ -215,7 +214,6 @@ pub fn node_signs(values: &Values, nodes: usize) -> Result<NodeSigns> {
         }
         Ok(out)
     });
-    debug_assert_eq!(parts.len(), signs.len());
     let signs = signs.into_iter().collect::<Result<Vec<_>>>()?.concat();
     Ok(NodeSigns { words, signs })
 }
