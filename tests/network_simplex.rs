@@ -313,7 +313,7 @@ fn expected(kind: Kind, dim: usize, values: &[Vec<f64>]) -> [usize; 4] {
 
 const KINDS: [Kind; 2] = [Kind::Arrangement, Kind::Interface];
 
-/// Some seconds; with LAPIDARY_LONG=1 5000 simplices of each kind, some minutes.
+/// Some seconds; with LAPIDARY_LONG=1 5000 simplices of each kind and number, a quarter of an hour.
 #[test]
 fn degenerate_and_nearly_so_agree_with_rationals() {
     let long = std::env::var_os("LAPIDARY_LONG").is_some();
