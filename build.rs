@@ -26,6 +26,9 @@ const SOURCES: &[&str] = &[
     "grid_moments",
     "grid_fluid",
     "simplex",
+    "network",
+    "network_views",
+    "network_surface",
 ];
 
 fn main() {

@@ -26,5 +26,8 @@ mod guard;
 pub mod keys;
 pub mod mesh;
 pub mod simplex;
+pub mod network;
+pub mod network_surface;
+pub mod network_views;
 pub mod status;
 mod view;

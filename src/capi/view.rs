@@ -1,10 +1,14 @@
 //! Between our arrays and C's pointers. All raw writes of the C boundary go through `put`.
 
-use crate::base::{BoxId, CellId, ComponentId, EdgeId, FaceId, NodeId, PlaneId, RegionId, Status, VertexId};
+use crate::base::{
+    BoxId, CellId, ComponentId, EdgeId, FaceId, FunctionId, NodeId, PatchId, PlaneId, PolygonId, RegionId, SetId,
+    ShellId, Status, TetId, VertexId,
+};
 use crate::complex::{HalfCorner, HalfFace, Key};
 use crate::network::simplex::{
     Carrier, LocalCell, LocalEdge, LocalFace, LocalFunction, LocalHalfFace, LocalPlane, LocalVertex,
 };
+use crate::network::patches::HalfPatch;
 
 /// Writes through an output pointer, unless the caller does not want that output.
 ///
@@ -34,6 +38,13 @@ unsafe impl ReadAs<i32> for FaceId {}
 unsafe impl ReadAs<i32> for BoxId {}
 unsafe impl ReadAs<i32> for NodeId {}
 unsafe impl ReadAs<i32> for RegionId {}
+unsafe impl ReadAs<i32> for TetId {}
+unsafe impl ReadAs<i32> for FunctionId {}
+unsafe impl ReadAs<i32> for SetId {}
+unsafe impl ReadAs<i32> for PolygonId {}
+unsafe impl ReadAs<i32> for PatchId {}
+unsafe impl ReadAs<i32> for ShellId {}
+unsafe impl ReadAs<i32> for HalfPatch {}
 unsafe impl ReadAs<i32> for HalfFace {}
 unsafe impl ReadAs<i32> for HalfCorner {}
 unsafe impl ReadAs<i32> for LocalVertex {}

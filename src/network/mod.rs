@@ -12,6 +12,7 @@ pub mod csg;
 pub mod data;
 pub mod domain;
 pub mod edges;
+pub mod exact_vertices;
 pub mod extract;
 pub mod local;
 mod mesh_cells;
