@@ -33,6 +33,19 @@ inline long to_count(const std::string &option, const std::string &text, long le
     return value;
 }
 
+inline double to_number(const std::string &option, const std::string &text)
+{
+    std::size_t used = 0;
+    double value = 0;
+    try {
+        value = std::stod(text, &used);
+    } catch (const std::exception &) {
+        used = 0;
+    }
+    if (used == 0 || used != text.size()) throw UsageError(option + ": '" + text + "' is not a double");
+    return value;
+}
+
 inline double to_factor(const std::string &option, const std::string &text)
 {
     std::size_t used = 0;
@@ -72,6 +85,14 @@ public:
     {
         on(option, [=, &values] {
             for (long &value : values) value = to_count(option, next(), least, most);
+        });
+    }
+    // So many doubles, one argument each; infinite ones are for the library to refuse.
+    template <typename Values>
+    void numbers(const std::string &option, Values &values)
+    {
+        on(option, [=, &values] {
+            for (double &value : values) value = to_number(option, next());
         });
     }
     void factor(const std::string &option, double &value)

@@ -33,6 +33,8 @@ struct Free {
     void operator()(lap_mesh *p) const { lap_mesh_free(p); }
     void operator()(lap_cut *p) const { lap_cut_free(p); }
     void operator()(lap_grid *p) const { lap_grid_free(p); }
+    void operator()(lap_network *p) const { lap_network_free(p); }
+    void operator()(lap_simplex *p) const { lap_simplex_free(p); }
 };
 template <typename T>
 using Handle = std::unique_ptr<T, Free>;

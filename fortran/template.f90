@@ -16,7 +16,7 @@
 !                 call lap_view(address, 3, count, array) for array(:, :) of three rows and a column per element.
 !                 uint8_t is integer(c_int8_t), which is signed.
 !   strings       lap_text(address) is a copy of a C string.
-!   callbacks     bind(c) procedures with the interface lap_progress or lap_log, handed over as c_funloc(procedure).
+!   callbacks     bind(c) procedures with the interface lap_progress, lap_log or lap_choose, handed over as c_funloc(procedure).
 !
 ! Indices. Array pointers count from 1; ids and offsets in arrays count from 0 as in C, and -1 is none. So element i of
 ! C is array(i + 1), and row i (from 0) of a CSR pair is items(offsets(i + 1) + 1 : offsets(i + 2)). Or give a pointer

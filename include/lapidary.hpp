@@ -1254,6 +1254,352 @@ private:
     std::unique_ptr<lap_simplex, free_it> handle_;
 };
 
+inline lap_network_options network_options()
+{
+    lap_network_options options;
+    check(lap_network_options_init(&options, static_cast<std::int32_t>(sizeof options)));
+    return options;
+}
+
+/* The boundary of a solid made of regions of a network. */
+class surface {
+public:
+    struct vertices_t {
+        groups<double, 3> xyz;
+        view<std::int32_t> sources;
+    };
+    struct polygons_t {
+        rows<std::int32_t> vertices;
+        view<std::int32_t> births;
+        view<std::uint8_t> flipped;
+    };
+
+    explicit surface(lap_surface *made) : handle_(made) {}
+
+    vertices_t vertices() const
+    {
+        vertices_t v;
+        check(lap_surface_vertices(get(), &v.xyz.count, &v.xyz.data, &v.sources.data));
+        v.sources.count = v.xyz.count;
+        return v;
+    }
+    polygons_t polygons() const
+    {
+        polygons_t p;
+        check(lap_surface_polygons(get(), &p.vertices.count, &p.vertices.offsets, &p.vertices.items, &p.births.data,
+                                   &p.flipped.data));
+        p.births.count = p.flipped.count = p.vertices.count;
+        return p;
+    }
+
+    const lap_surface *get() const { return handle_.get(); }
+
+private:
+    struct free_it {
+        void operator()(lap_surface *handle) const { lap_surface_free(handle); }
+    };
+    std::unique_ptr<lap_surface, free_it> handle_;
+};
+
+/* The network of functions, or of materials, that are linear on tetrahedra or triangles. */
+class network {
+public:
+    struct counts_t {
+        std::int64_t vertices, edges, polygons, patches, chains, corners, components, shells, regions;
+    };
+    struct input_t {
+        std::int32_t kind, dim;
+        std::int64_t functions;
+    };
+    struct vertices_t {
+        groups<double, 3> xyz;
+        groups<std::int32_t, 4> nodes;
+    };
+    struct polygons_t {
+        rows<std::int32_t> vertices;
+        view<std::int32_t> sets;
+        groups<std::int32_t, 2> simplices;
+    };
+    struct sets_t {
+        rows<std::int32_t> functions, orientations;
+    };
+    struct edges_t {
+        groups<std::int32_t, 2> vertices;
+        rows<std::int32_t> polygons;
+    };
+    struct patches_t {
+        rows<std::int32_t> polygons;
+        view<std::int32_t> components;
+    };
+    struct polygon_patches_t {
+        view<std::int32_t> patches;
+        view<std::uint8_t> turned;
+    };
+    struct chains_t {
+        rows<std::int32_t> edges, vertices;
+        view<std::uint8_t> loops;
+    };
+    struct chain_patches_t {
+        rows<std::int32_t> sides;
+        rows<std::uint8_t> gaps;
+    };
+    struct shells_t {
+        rows<std::int32_t> sides;
+        view<std::int32_t> regions;
+    };
+    struct regions_t {
+        rows<std::int32_t> shells;
+        view<std::int32_t> simplices;
+    };
+    struct triangles_t {
+        groups<std::int32_t, 3> vertices;
+        view<std::int32_t> polygons;
+    };
+    struct stage {
+        std::string name;
+        double seconds;
+    };
+    /* The value of function f at node i is data[f * function_stride + i * node_stride]. */
+    struct values_t {
+        const double *data = nullptr;
+        std::int64_t functions = 0, function_stride = 1, node_stride = 1;
+    };
+
+    /* bounds: lowest x, y, z, highest x, y, z, or NULL. */
+    static network box(context &with, const std::array<std::int32_t, 3> &cells, const double *bounds, const values_t &values,
+                       const lap_network_options &options = network_options())
+    {
+        return make(with, [&](lap_network **made) {
+            return lap_network_new_box(with.get(), cells.data(), bounds, values.functions, values.data,
+                                       values.function_stride, values.node_stride, &options, made);
+        });
+    }
+    /* xyz: three per node; tets: four nodes each. */
+    static network tets(context &with, const std::vector<double> &xyz, const std::vector<std::int32_t> &tets,
+                        const values_t &values, const lap_network_options &options = network_options())
+    {
+        if (xyz.size() % 3 != 0) throw error(LAP_ERR_BAD_ARGUMENT, "xyz does not hold three numbers per node");
+        if (tets.size() % 4 != 0) throw error(LAP_ERR_BAD_ARGUMENT, "tets does not hold four numbers per tetrahedron");
+        return make(with, [&](lap_network **made) {
+            return lap_network_new_tets(with.get(), size(xyz) / 3, xyz.data(), size(tets) / 4, tets.data(), values.functions,
+                                        values.data, values.function_stride, values.node_stride, &options, made);
+        });
+    }
+    /* xy: two per node; triangles: three nodes each. */
+    static network triangles(context &with, const std::vector<double> &xy, const std::vector<std::int32_t> &triangles,
+                             const values_t &values, const lap_network_options &options = network_options())
+    {
+        if (xy.size() % 2 != 0) throw error(LAP_ERR_BAD_ARGUMENT, "xy does not hold two numbers per node");
+        if (triangles.size() % 3 != 0) throw error(LAP_ERR_BAD_ARGUMENT, "triangles does not hold three numbers per triangle");
+        return make(with, [&](lap_network **made) {
+            return lap_network_new_triangles(with.get(), size(xy) / 2, xy.data(), size(triangles) / 3, triangles.data(),
+                                             values.functions, values.data, values.function_stride, values.node_stride,
+                                             &options, made);
+        });
+    }
+
+    counts_t counts() const
+    {
+        counts_t n{};
+        check(lap_network_counts(get(), &n.vertices, &n.edges, &n.polygons, &n.patches, &n.chains, &n.corners, &n.components,
+                                 &n.shells, &n.regions));
+        return n;
+    }
+    input_t input() const
+    {
+        input_t i{};
+        check(lap_network_input(get(), &i.kind, &i.dim, &i.functions));
+        return i;
+    }
+    /* Simplices by the number of functions that are active in them. */
+    view<std::int64_t> active() const
+    {
+        view<std::int64_t> a;
+        check(lap_network_active(get(), &a.count, &a.data));
+        return a;
+    }
+    vertices_t vertices() const
+    {
+        vertices_t v;
+        check(lap_network_vertices(get(), &v.xyz.count, &v.xyz.data, &v.nodes.data));
+        v.nodes.count = v.xyz.count;
+        return v;
+    }
+    rows<std::int32_t> vertex_functions() const
+    {
+        rows<std::int32_t> f;
+        check(lap_network_vertex_functions(get(), &f.count, &f.offsets, &f.items));
+        return f;
+    }
+    polygons_t polygons() const
+    {
+        polygons_t p;
+        check(lap_network_polygons(get(), &p.vertices.count, &p.vertices.offsets, &p.vertices.items, &p.sets.data,
+                                   &p.simplices.data));
+        p.sets.count = p.simplices.count = p.vertices.count;
+        return p;
+    }
+    sets_t sets() const
+    {
+        sets_t s;
+        check(lap_network_sets(get(), &s.functions.count, &s.functions.offsets, &s.functions.items, &s.orientations.items));
+        s.orientations.count = s.functions.count;
+        s.orientations.offsets = s.functions.offsets;
+        return s;
+    }
+    edges_t edges() const
+    {
+        edges_t e;
+        check(lap_network_edges(get(), &e.vertices.count, &e.vertices.data, &e.polygons.offsets, &e.polygons.items));
+        e.polygons.count = e.vertices.count;
+        return e;
+    }
+    patches_t patches() const
+    {
+        patches_t p;
+        check(lap_network_patches(get(), &p.polygons.count, &p.polygons.offsets, &p.polygons.items, &p.components.data));
+        p.components.count = p.polygons.count;
+        return p;
+    }
+    polygon_patches_t polygon_patches() const
+    {
+        polygon_patches_t p;
+        check(lap_network_polygon_patches(get(), &p.patches.count, &p.patches.data, &p.turned.data));
+        p.turned.count = p.patches.count;
+        return p;
+    }
+    chains_t chains() const
+    {
+        chains_t c;
+        check(lap_network_chains(get(), &c.edges.count, &c.edges.offsets, &c.edges.items, &c.vertices.offsets,
+                                 &c.vertices.items, &c.loops.data));
+        c.vertices.count = c.loops.count = c.edges.count;
+        return c;
+    }
+    chain_patches_t chain_patches() const
+    {
+        chain_patches_t c;
+        check(lap_network_chain_patches(get(), &c.sides.count, &c.sides.offsets, &c.sides.items, &c.gaps.items));
+        c.gaps.count = c.sides.count;
+        c.gaps.offsets = c.sides.offsets;
+        return c;
+    }
+    view<std::int32_t> corners() const
+    {
+        view<std::int32_t> c;
+        check(lap_network_corners(get(), &c.count, &c.data));
+        return c;
+    }
+    shells_t shells() const
+    {
+        shells_t s;
+        check(lap_network_shells(get(), &s.sides.count, &s.sides.offsets, &s.sides.items, &s.regions.data));
+        s.regions.count = s.sides.count;
+        return s;
+    }
+    regions_t regions() const
+    {
+        regions_t r;
+        check(lap_network_regions(get(), &r.shells.count, &r.shells.offsets, &r.shells.items, &r.simplices.data));
+        r.simplices.count = r.shells.count;
+        return r;
+    }
+    /* The signs of all functions in a region of an arrangement. */
+    view<std::int32_t> region_signs(std::int64_t region) const
+    {
+        view<std::int32_t> s;
+        check(lap_network_region_signs(get(), nullptr, &s.count, &s.data));
+        s.data = s.data == nullptr ? nullptr : s.data + region * s.count;
+        return s;
+    }
+    /* Of an interface. */
+    view<std::int32_t> region_materials() const
+    {
+        view<std::int32_t> m;
+        check(lap_network_region_materials(get(), &m.count, &m.data));
+        return m;
+    }
+    triangles_t triangles() const
+    {
+        triangles_t t;
+        check(lap_network_triangles(get(), &t.vertices.count, &t.vertices.data, &t.polygons.data));
+        t.polygons.count = t.vertices.count;
+        return t;
+    }
+    /* These two need options with keep_values. */
+    std::array<std::string, 3> exact_vertex(context &with, std::int32_t vertex) const
+    {
+        const char *x = "", *y = "", *z = "";
+        with.run(lap_network_vertex_exact(with.get(), get(), vertex, &x, &y, &z));
+        return {x, y, z};
+    }
+    void check_consistency(context &with) const { with.run(lap_network_check(with.get(), get())); }
+
+    /* The boundary of the regions that an expression, a table with a byte for each, or a function chooses. */
+    surface csg(context &with, const std::string &expression, bool triangulated = false) const
+    {
+        lap_surface *made = nullptr;
+        const std::int32_t status = lap_network_csg(with.get(), get(), expression.c_str(), triangulated, &made);
+        surface result(made);
+        with.run(status);
+        return result;
+    }
+    surface csg(context &with, const std::vector<std::uint8_t> &table, bool triangulated = false) const
+    {
+        lap_surface *made = nullptr;
+        const std::int32_t status =
+            lap_network_csg_table(with.get(), get(), size(table), table.data(), triangulated, &made);
+        surface result(made);
+        with.run(status);
+        return result;
+    }
+    /* An exception of the function leaves the call. */
+    surface csg(context &with, const std::function<bool(std::int32_t region)> &chosen, bool triangulated = false) const
+    {
+        std::vector<std::uint8_t> table(static_cast<std::size_t>(counts().regions));
+        for (std::size_t r = 0; r < table.size(); ++r) table[r] = chosen(static_cast<std::int32_t>(r)) ? 1 : 0;
+        return csg(with, table, triangulated);
+    }
+
+    std::vector<stage> stages() const
+    {
+        std::int32_t count = 0;
+        check(lap_network_stage_count(get(), &count));
+        std::vector<stage> all;
+        for (std::int32_t i = 0; i < count; ++i) {
+            const char *name = "";
+            double seconds = 0;
+            check(lap_network_stage(get(), i, &name, &seconds));
+            all.push_back({name, seconds});
+        }
+        return all;
+    }
+
+    const lap_network *get() const { return handle_.get(); }
+
+private:
+    explicit network(lap_network *made) : handle_(made) {}
+
+    template <class Make>
+    static network make(context &with, Make call)
+    {
+        lap_network *made = nullptr;
+        const std::int32_t status = call(&made);
+        network result(made);
+        with.run(status);
+        return result;
+    }
+    template <class T>
+    static std::int64_t size(const std::vector<T> &v)
+    {
+        return static_cast<std::int64_t>(v.size());
+    }
+    struct free_it {
+        void operator()(lap_network *handle) const { lap_network_free(handle); }
+    };
+    std::unique_ptr<lap_network, free_it> handle_;
+};
+
 } // namespace lapidary
 
 #endif /* LAPIDARY_HPP */

@@ -5,7 +5,8 @@
 mod random;
 
 use lapidary::capi::{
-    context::*, cut::*, derived::*, grid::*, grid_boxes::*, grid_moments::*, keys::*, mesh::*, status::*,
+    context::*, cut::*, derived::*, grid::*, grid_boxes::*, grid_moments::*, keys::*, mesh::*, network::*, network_surface::*,
+    network_views::*, status::*,
 };
 use random::Random;
 use std::ptr::{null, null_mut};
@@ -252,4 +253,170 @@ unsafe fn boxes(
         }
         made
     }
+}
+
+/// Values that are zero, equal and opposite most of the time.
+fn values(r: &mut Random, count: usize) -> Vec<f64> {
+    let wild = [0, 0, 0, 0, 1][r.below(5) as usize];
+    let fine = r.below(3) == 0;
+    let mut one = |_| match r.below(64) {
+        i if i < wild => {
+            [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, f64::MAX, f64::MIN_POSITIVE, 5e-324, -0.0][r.below(7) as usize]
+        }
+        _ if fine => (r.below(2001) as f64 - 1000.0) / 7.0,
+        _ => r.below(3) as f64 - 1.0,
+    };
+    (0..count).map(&mut one).collect()
+}
+
+/// Random boxes, tetrahedra and triangles with random values: a status as documented, a network that passes its own check, both ways of
+/// finding regions alike from values in any layout, the same boundary for a region and its complement, vertices that are the exact ones rounded.
+#[test]
+fn any_network_ends_with_a_status() {
+    let mut r = Random(0x6e65_7477_6f72_6b73);
+    let (mut made, mut bad, mut meshes) = (0, 0, 0);
+    unsafe {
+        let mut context = null_mut();
+        assert_eq!(lap_context_new(&mut context), LAP_OK);
+        for round in 0..3000 {
+            let n = r.below(5) as usize;
+            let mut options = std::mem::zeroed();
+            assert_eq!(lap_network_options_init(&mut options, size_of::<lap_network_options>() as i32), LAP_OK);
+            options.kind = r.below(2) as i32;
+            options.keep_values = 1;
+            let shape = r.below(3);
+            let cells: [i32; 3] = std::array::from_fn(|_| r.below(25).min(3) as i32);
+            let bounds: [f64; 6] = std::array::from_fn(|k| if k < 3 { -1.0 } else { r.below(40) as f64 });
+            let nodes = match shape {
+                0 => cells.iter().map(|&c| c as usize + 1).product(),
+                _ => 4 + r.below(5) as usize,
+            };
+            let coordinates: Vec<f64> = (0..3 * nodes).map(|_| number(&mut r, (round % 9 == 0) as u64)).collect();
+            // Fans of simplices around the first nodes: degenerate, overlapping and sound ones.
+            let width = if shape == 1 { 4 } else { 3 };
+            let mut corners: Vec<i32> = Vec::new();
+            for k in 0..1 + r.below(3) as i32 {
+                corners.extend((0..width).map(|c| if c + 1 < width { c } else { c + k }));
+            }
+            if r.below(12) == 0 {
+                let at = r.below(corners.len() as u64) as usize;
+                corners[at] = r.below(12) as i32 - 2;
+            }
+            let separate = values(&mut r, n * nodes);
+            let interleaved: Vec<f64> = (0..n * nodes).map(|i| separate[i % n * nodes + i / n]).collect();
+            let bad_stride = r.below(50) == 0;
+            let make = |layout: usize, regions: i32| {
+                let mut options = options;
+                options.regions = regions;
+                let mut network = null_mut();
+                let (values, strides) = match layout {
+                    0 => (separate.as_ptr(), [nodes as i64, 1]),
+                    _ => (interleaved.as_ptr(), [1, n.max(1) as i64]),
+                };
+                let [a, b] = if bad_stride { [strides[0], -strides[1]] } else { strides };
+                let count = (corners.len() / width as usize) as i64;
+                let (n, nodes) = (n as i64, nodes as i64);
+                let xyz = coordinates.as_ptr();
+                let status = match shape {
+                    0 => {
+                        let bounds = if round % 2 == 0 { null() } else { bounds.as_ptr() };
+                        lap_network_new_box(context, cells.as_ptr(), bounds, n, values, a, b, &options, &mut network)
+                    }
+                    1 => lap_network_new_tets(
+                        context,
+                        nodes,
+                        xyz,
+                        count,
+                        corners.as_ptr(),
+                        n,
+                        values,
+                        a,
+                        b,
+                        &options,
+                        &mut network,
+                    ),
+                    _ => lap_network_new_triangles(
+                        context,
+                        nodes,
+                        xyz,
+                        count,
+                        corners.as_ptr(),
+                        n,
+                        values,
+                        a,
+                        b,
+                        &options,
+                        &mut network,
+                    ),
+                };
+                assert_eq!(status == LAP_OK, !network.is_null(), "round {round}");
+                (status, network)
+            };
+            let (status, network) = make(0, LAP_REGIONS_AUTOMATIC);
+            let (other_status, other) = make(1, LAP_REGIONS_CLASSES);
+            assert_eq!(status, other_status, "round {round}");
+            if status != LAP_OK {
+                let mut message = null();
+                lap_context_last_error(context, null_mut(), &mut message);
+                let message = std::ffi::CStr::from_ptr(message);
+                assert!([LAP_ERR_BAD_ARGUMENT, LAP_ERR_BAD_MESH].contains(&status), "round {round}: {message:?}");
+                assert!(!message.is_empty(), "round {round}");
+                bad += 1;
+                continue;
+            }
+            made += 1;
+            meshes += (shape > 0) as i32;
+            assert!(!bad_stride && separate.iter().all(|x| x.is_finite()), "round {round}");
+            let status = lap_network_check(context, network);
+            let mut message = null();
+            lap_context_last_error(context, null_mut(), &mut message);
+            assert_eq!(status, LAP_OK, "round {round}: {:?}", std::ffi::CStr::from_ptr(message));
+            let counts = |network| {
+                let mut c = [0i64; 9];
+                let [v, e, p, pa, ch, co, com, s, r] = &mut c;
+                assert_eq!(lap_network_counts(network, v, e, p, pa, ch, co, com, s, r), LAP_OK);
+                c
+            };
+            let c = counts(network);
+            assert_eq!(c, counts(other), "round {round}");
+            // Each region against the rest: the boundary of a solid and that of its complement are the same polygons.
+            for region in 0..c[8] as usize {
+                let mut table = vec![0u8; c[8] as usize];
+                table[region] = 1;
+                let complement: Vec<u8> = table.iter().map(|t| 1 - t).collect();
+                let births = |table: &[u8]| {
+                    let (mut surface, mut count, mut births) = (null_mut(), 0, null());
+                    let status = lap_network_csg_table(context, network, c[8], table.as_ptr(), 0, &mut surface);
+                    assert_eq!(status, LAP_OK);
+                    let status =
+                        lap_surface_polygons(surface, &mut count, null_mut(), null_mut(), &mut births, null_mut());
+                    assert_eq!(status, LAP_OK);
+                    let births: Vec<i32> = (0..count as usize).map(|i| *births.add(i)).collect();
+                    assert_eq!(lap_surface_free(surface), LAP_OK);
+                    births
+                };
+                assert_eq!(births(&table), births(&complement), "round {round}");
+            }
+            // Coordinates are the exact ones, rounded.
+            let (mut count, mut xyz) = (0, null());
+            assert_eq!(lap_network_vertices(network, &mut count, &mut xyz, null_mut()), LAP_OK);
+            for v in (0..count as usize).take(4) {
+                let mut texts = [null(); 3];
+                let [x, y, z] = &mut texts;
+                assert_eq!(lap_network_vertex_exact(context, network, v as i32, x, y, z), LAP_OK);
+                for (k, text) in texts.iter().enumerate() {
+                    let exact: rug::Rational = std::ffi::CStr::from_ptr(*text).to_str().unwrap().parse().unwrap();
+                    let got = *xyz.add(3 * v + k);
+                    let distance = |x: f64| (rug::Rational::from_f64(x).unwrap() - &exact).abs();
+                    let nearest = distance(got) <= distance(got.next_up()) && distance(got) <= distance(got.next_down());
+                    assert!(nearest, "round {round}: {got} is not the double nearest to {exact}");
+                }
+            }
+            assert_eq!(lap_network_free(network), LAP_OK);
+            assert_eq!(lap_network_free(other), LAP_OK);
+        }
+        assert_eq!(lap_context_free(context), LAP_OK);
+    }
+    println!("{made} networks, {meshes} of them on meshes; {bad} refused");
+    assert!(made > 1000 && meshes > 200 && bad > 100, "{made} {meshes} {bad}");
 }

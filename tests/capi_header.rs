@@ -69,8 +69,8 @@ fn signatures_use_abi_types_only() {
             let words: Vec<&str> = parameter.split([' ', '*']).filter(|w| !w.is_empty() && *w != "const").collect();
             let ok = match words[..] {
                 ["struct", noun, _] => noun.starts_with("lap_") && parameter.contains('*'),
-                // The two callbacks.
-                ["lap_progress" | "lap_log", _] => true,
+                // Callbacks.
+                ["lap_progress" | "lap_log" | "lap_choose", _] => true,
                 ["void", user] => user == "user" && parameter.contains('*'),
                 [base, _] => allowed.contains(&base),
                 _ => false,

@@ -34,5 +34,6 @@ void test_certify(void);
 void test_keys(void);
 void test_grid(void);
 void test_simplex(void);
+void test_network(void);
 
 #endif

@@ -96,5 +96,6 @@ int main(void)
     test_keys();
     test_grid();
     test_simplex();
+    test_network();
     return check_result();
 }
