@@ -28,42 +28,42 @@ pub fn extract(domain: &Domain, values: &Values, kind: Kind, run: &mut Run) -> R
         (Domain::Box(grid), Kind::Arrangement) => {
             let [nx, ny, nz] = grid.cells();
             let signs = sign_rows(values, nx + 1, (ny + 1) * (nz + 1))?;
-            run.stage("points", 0.2)?;
+            run.stage("points", 0.15)?;
             let edges = box_edges::arrangement_edges(grid, values, &signs);
-            run.stage("polygons", 0.5)?;
+            run.stage("polygons", 0.4)?;
             let context = Context { kind, domain, values, edge_functions: edges.functions(), marks: &marks };
             let parts = box_cubes::arrangement_cubes(grid, &context, &signs, &edges);
-            run.stage("assemble", 0.9)?;
+            run.stage("assemble", 0.65)?;
             assemble(kind, domain, values, edges, marks, parts)
         }
         (Domain::Box(grid), Kind::Interface) => {
             let labels = labels(values, domain.node_count())?;
-            run.stage("points", 0.2)?;
+            run.stage("points", 0.15)?;
             let edges = box_edges::interface_edges(grid, values, &labels);
-            run.stage("polygons", 0.5)?;
+            run.stage("polygons", 0.4)?;
             let context = Context { kind, domain, values, edge_functions: edges.functions(), marks: &marks };
             let parts = box_cubes::interface_cubes(grid, &context, &labels, &edges);
-            run.stage("assemble", 0.9)?;
+            run.stage("assemble", 0.65)?;
             assemble(kind, domain, values, edges, marks, parts)
         }
         (Domain::Mesh(mesh), Kind::Arrangement) => {
             let signs = node_signs(values, domain.node_count())?;
-            run.stage("points", 0.2)?;
+            run.stage("points", 0.15)?;
             let edges = mesh_edges::arrangement_edges(mesh, values, &signs);
-            run.stage("polygons", 0.5)?;
+            run.stage("polygons", 0.4)?;
             let context = Context { kind, domain, values, edge_functions: edges.functions(), marks: &marks };
             let parts = mesh_cells::arrangement_cells(mesh, &context, &signs, &edges);
-            run.stage("assemble", 0.9)?;
+            run.stage("assemble", 0.65)?;
             assemble(kind, domain, values, edges, marks, parts)
         }
         (Domain::Mesh(mesh), Kind::Interface) => {
             let labels = labels(values, domain.node_count())?;
-            run.stage("points", 0.2)?;
+            run.stage("points", 0.15)?;
             let edges = mesh_edges::interface_edges(mesh, values, &labels);
-            run.stage("polygons", 0.5)?;
+            run.stage("polygons", 0.4)?;
             let context = Context { kind, domain, values, edge_functions: edges.functions(), marks: &marks };
             let parts = mesh_cells::interface_cells(mesh, &context, &labels, &edges);
-            run.stage("assemble", 0.9)?;
+            run.stage("assemble", 0.65)?;
             assemble(kind, domain, values, edges, marks, parts)
         }
     }?;
