@@ -211,7 +211,7 @@ int extract_network(const Options &options)
     const NetworkArrays arrays = arrays_of(context, best.network.get());
     if (!options.vtu.empty()) write_network_vtu(options.vtu, arrays);
     if (!options.patches.empty()) write_patches(options.patches, arrays);
-    if (!options.exploded.empty()) write_regions_exploded(options.exploded, arrays, 0.35);
+    if (!options.exploded.empty()) write_regions_exploded(options.exploded, arrays, 0.6);
     return 0;
 }
 

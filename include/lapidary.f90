@@ -16,7 +16,7 @@
 !                 call lap_view(address, 3, count, array) for array(:, :) of three rows and a column per element.
 !                 uint8_t is integer(c_int8_t), which is signed.
 !   strings       lap_text(address) is a copy of a C string.
-!   callbacks     bind(c) procedures with the interface lap_progress or lap_log, handed over as c_funloc(procedure).
+!   callbacks     bind(c) procedures with the interface lap_progress, lap_log or lap_choose, handed over as c_funloc(procedure).
 !
 ! Indices. Array pointers count from 1; ids and offsets in arrays count from 0 as in C, and -1 is none. So element i of
 ! C is array(i + 1), and row i (from 0) of a CSR pair is items(offsets(i + 1) + 1 : offsets(i + 2)). Or give a pointer
@@ -167,6 +167,15 @@ module lapidary
   ! A face between two materials; positive where the first is larger. ids: the owners of the cells on its positive and
   ! on its negative side, the first one lower
   integer(c_int32_t), parameter, public :: LAP_SIMPLEX_PAIR = 2
+  ! The implicit arrangement (IA): surfaces are where functions are zero.
+  integer(c_int32_t), parameter, public :: LAP_NETWORK_ARRANGEMENT = 0
+  ! The material interface (MI): surfaces are where the largest function, the material, changes.
+  integer(c_int32_t), parameter, public :: LAP_NETWORK_INTERFACE = 1
+  ! Regions are found by rays through the grid where these tell (a box, no vertex of the network at a node), else as
+  ! LAP_REGIONS_CLASSES.
+  integer(c_int32_t), parameter, public :: LAP_REGIONS_AUTOMATIC = 0
+  ! Regions are found as classes of nodes, shells and cells, whatever the domain. The same regions, more time.
+  integer(c_int32_t), parameter, public :: LAP_REGIONS_CLASSES = 1
   ! Handle lap_certified (type(c_ptr)). A complex as triangles over doubles that were checked exactly, repaired where
   ! rounding had made triangles meet, and a report. Immutable: a const handle may be used from many threads at once.
   !
@@ -207,6 +216,36 @@ module lapidary
   ! Handle lap_mesh (type(c_ptr)). A closed triangle mesh that bounds a solid: the triangles of every edge balance in
   ! orientation, solids are oriented outward and voids inward. Any genus, several components, voids, non-manifold edges
   ! and vertices. A const handle may be used from many threads at once; only lap_mesh_update_coordinates changes a mesh.
+  ! Handle lap_network (type(c_ptr)). The network of piecewise linear functions on a domain of tetrahedra (in two
+  ! dimensions: triangles): vertices, polygons, and what they form. Exact for any finite values.
+  !
+  ! Domain. A simplex is a tetrahedron (triangle); a node is a vertex of the domain, where functions have their values;
+  ! in a simplex they are linear. A box of nx × ny × nz cubes has node (i, j, k) at i + (nx + 1) (j + (ny + 1) k),
+  ! cube (i, j, k) at i + nx (j + ny k), and five tetrahedra a cube, 5 c to 5 c + 4 of cube c: one at each corner with
+  ! even i + j + k, then the one between the corners with odd i + j + k.
+  !
+  ! Arrangement: polygons are pieces of the zero sets of functions. A function that is zero on a lower-dimensional part
+  ! of a simplex only does not split it. A piece of the face between two simplices is a polygon if the sign of a
+  ! function differs on its sides, or if a function is zero on it and in neither simplex. Functions that are zero on one
+  ! polygon are listed with it as a set. Interface: polygons are where the regions of two materials meet; where
+  ! materials are equal on a whole piece, the lowest owns it. There are no polygons on the boundary of the domain.
+  !
+  ! Polygons are convex and lie in one simplex or on the face between two. Normals: arrangement: to the positive side of
+  ! the lowest function that has different signs on the two sides (where none has: into the simplex with the higher
+  ! number); interface: into the lower material. Loops run anticlockwise seen from the tip of the normal.
+  !
+  ! Patch: polygons joined across edges that have two polygons with one set of functions (and are not on the boundary of
+  ! the domain). Chain: a longest path or loop along other edges with two or more polygons, around which the same
+  ! patches meet. (An edge with one polygon is a border.) Corner: a vertex where chains end. Component: patches that
+  ! share vertices. Shell: sides of patches that bound one region along chains. Region: a part of the domain without
+  ! polygons inside, bounded by shells; its label is the sign of every function, or the material. The side of a patch is
+  ! 2 p + s for patch p: s is 0 behind its normal, 1 before it.
+  !
+  ! Two dimensions: polygons are segments, from the first vertex to the second, with the normal to the left; edges are
+  ! vertices (both ends are the same); each vertex of the chain kind is a chain and a corner by itself; fourth nodes are
+  ! -1, third coordinates 0.
+  !
+  ! Immutable: a const handle may be used from many threads at once; what is computed on demand is computed once.
   ! Handle lap_simplex (type(c_ptr)). The complexes of tetrahedra or triangles, each divided by linear functions that
   ! are given by their values at its corners: cells, faces, edges and vertices, the simplex's own boundary included.
   ! Exact for any finite values.
@@ -227,6 +266,11 @@ module lapidary
   !
   ! One handle is filled again and again, and keeps its memory; filling it needs it alone. Otherwise a const handle may
   ! be used from many threads at once.
+  ! Handle lap_surface (type(c_ptr)). The boundary of a union of regions of a network: an oriented mesh. Polygons
+  ! between two regions that were both chosen are gone. It is closed, except where the solid reaches the boundary of the
+  ! network's domain.
+  !
+  ! Immutable: a const handle may be used from many threads at once.
 
   public :: lap_progress
   abstract interface
@@ -334,6 +378,32 @@ module lapidary
     integer(c_int32_t) :: known
     integer(c_int32_t) :: known_node(3)
   end type
+
+  ! Options of lap_network_new_*; filled by lap_network_options_init.
+  type, bind(c), public :: lap_network_options
+    ! Size of this struct in bytes, as the caller was compiled.
+    integer(c_int32_t) :: struct_size
+    ! LAP_NETWORK_ARRANGEMENT, the default, or LAP_NETWORK_INTERFACE.
+    integer(c_int32_t) :: kind
+    ! How regions are found: LAP_REGIONS_AUTOMATIC, the default, or LAP_REGIONS_CLASSES.
+    integer(c_int32_t) :: regions
+    ! Nonzero: keep a copy of the values and of the mesh, which lap_network_vertex_exact and lap_network_check need. 0,
+    ! the default: do not.
+    integer(c_int32_t) :: keep_values
+  end type
+
+  public :: lap_choose
+  abstract interface
+    ! Whether a region is in the solid: return 0 if not, anything else if it is.
+    !
+    ! Runs on the thread that made the call and under the floating-point environment which that thread had. Must return
+    ! normally (no exception, no longjmp) and must not use the same context (LAP_ERR_BUSY).
+    integer(c_int32_t) function lap_choose(user, region) bind(c)
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value :: user
+      integer(c_int32_t), value :: region
+    end function
+  end interface
 
   public :: lap_version
   interface
@@ -2650,6 +2720,655 @@ module lapidary
       import :: c_int32_t, c_ptr
       type(c_ptr), value :: context
       type(c_ptr), value :: simplex
+    end function
+  end interface
+
+  public :: lap_network_options_init
+  interface
+    ! Fills network options with the defaults.
+    !
+    ! struct_size: pass (int32_t)sizeof(lap_network_options); no more than that is written, so a program compiled
+    ! against an older header keeps working.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER; LAP_ERR_BAD_ARGUMENT if the size is not a multiple of 4 in 4..4096.
+    integer(c_int32_t) function lap_network_options_init(options, struct_size) bind(c, name="lap_network_options_init")
+      import :: c_int32_t, lap_network_options
+      type(lap_network_options), intent(inout), optional :: options
+      integer(c_int32_t), value :: struct_size
+    end function
+  end interface
+
+  public :: lap_network_new_box
+  interface
+    ! The network of functions on a box of cubes, of which nothing is stored.
+    !
+    ! Inputs (borrowed for the call): cells: 3 numbers, cubes along x, y and z, 1 or more; bounds: lowest x, y, z,
+    ! highest x, y, z: node i of n + 1 along an axis is at (i / n) (highest - lowest) + lowest, computed in doubles as
+    ! written; or NULL: then it is at i; n_functions: functions, or materials; an arrangement may have none; values:
+    ! that of function f at node i is values[f × function_stride + i × node_stride], so with one array per function
+    ! behind the other the strides are the number of nodes and 1, and with interleaved values 1 and n_functions;
+    ! options: or NULL for the defaults. network: receives the handle, NULL after an error or cancel; free it with
+    ! lap_network_free. It does not need the context to stay alive.
+    !
+    ! Errors: LAP_ERR_BAD_ARGUMENT for cells below 1, bounds that are not finite or do not rise, a stride below 1, a
+    ! negative count, an interface of no materials, an option that there is not, and, with a message that names function
+    ! and node, for a value that is NaN or infinite; LAP_ERR_TOO_LARGE if the box has 2^30 nodes or tetrahedra or more,
+    ! or the result more elements than 32-bit indices can number; LAP_ERR_NULL_POINTER, LAP_ERR_CANCELLED,
+    ! LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: reading the values once, else it grows with the simplices that surfaces
+    ! cross and the polygons in them.
+    integer(c_int32_t) function lap_network_new_box(context, cells, bounds, n_functions, values, function_stride, &
+      node_stride, options, network) bind(c, name="lap_network_new_box")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr, lap_network_options
+      type(c_ptr), value :: context
+      integer(c_int32_t), intent(in), optional :: cells(*)
+      real(c_double), intent(in), optional :: bounds(*)
+      integer(c_int64_t), value :: n_functions
+      real(c_double), intent(in), optional :: values(*)
+      integer(c_int64_t), value :: function_stride
+      integer(c_int64_t), value :: node_stride
+      type(lap_network_options), intent(in), optional :: options
+      type(c_ptr), intent(inout), optional :: network
+    end function
+  end interface
+
+  public :: lap_network_new_tets
+  interface
+    ! The network of functions on a conforming mesh of tetrahedra: any, connected or not, with holes and handles.
+    !
+    ! Inputs (borrowed for the call): xyz: 3 × n_nodes coordinates; tets: 4 × n_tets nodes; the corners of a
+    ! tetrahedron in either orientation; nodes without tetrahedra are allowed. Two tetrahedra that share three nodes
+    ! must lie on different sides of that face. (Tetrahedra that overlap without sharing a face are not looked for: the
+    ! network is then the union of what each holds.) Others as for lap_network_new_box, with values at the n_nodes
+    ! nodes. network: receives the handle, NULL after an error or cancel; free it with lap_network_free.
+    !
+    ! Errors: LAP_ERR_BAD_MESH with LAP_DEFECT_NON_FINITE_COORDINATE, LAP_DEFECT_INDEX_OUT_OF_RANGE,
+    ! LAP_DEFECT_DEGENERATE_SIMPLEX or LAP_DEFECT_OVERLAPPING_SIMPLICES; LAP_ERR_TOO_LARGE for 2^30 nodes or tetrahedra
+    ! or more; others as for lap_network_new_box. Cost: linear in the mesh; faces are sorted around their lowest nodes.
+    integer(c_int32_t) function lap_network_new_tets(context, n_nodes, xyz, n_tets, tets, n_functions, values, &
+      function_stride, node_stride, options, network) bind(c, name="lap_network_new_tets")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr, lap_network_options
+      type(c_ptr), value :: context
+      integer(c_int64_t), value :: n_nodes
+      real(c_double), intent(in), optional :: xyz(*)
+      integer(c_int64_t), value :: n_tets
+      integer(c_int32_t), intent(in), optional :: tets(*)
+      integer(c_int64_t), value :: n_functions
+      real(c_double), intent(in), optional :: values(*)
+      integer(c_int64_t), value :: function_stride
+      integer(c_int64_t), value :: node_stride
+      type(lap_network_options), intent(in), optional :: options
+      type(c_ptr), intent(inout), optional :: network
+    end function
+  end interface
+
+  public :: lap_network_new_triangles
+  interface
+    ! The network of functions on a conforming mesh of triangles in the plane: the same one dimension down.
+    !
+    ! Inputs (borrowed for the call): xy: 2 × n_nodes coordinates; triangles: 3 × n_triangles nodes, in either
+    ! orientation; others as for lap_network_new_tets. network: receives the handle, NULL after an error or cancel; free
+    ! it with lap_network_free.
+    !
+    ! Errors, cost: as for lap_network_new_tets.
+    integer(c_int32_t) function lap_network_new_triangles(context, n_nodes, xy, n_triangles, triangles, n_functions, &
+      values, function_stride, node_stride, options, network) bind(c, name="lap_network_new_triangles")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr, lap_network_options
+      type(c_ptr), value :: context
+      integer(c_int64_t), value :: n_nodes
+      real(c_double), intent(in), optional :: xy(*)
+      integer(c_int64_t), value :: n_triangles
+      integer(c_int32_t), intent(in), optional :: triangles(*)
+      integer(c_int64_t), value :: n_functions
+      real(c_double), intent(in), optional :: values(*)
+      integer(c_int64_t), value :: function_stride
+      integer(c_int64_t), value :: node_stride
+      type(lap_network_options), intent(in), optional :: options
+      type(c_ptr), intent(inout), optional :: network
+    end function
+  end interface
+
+  public :: lap_network_free
+  interface
+    ! Frees a network and all that was borrowed from it. NULL is allowed and does nothing. (Surfaces made from it stay.)
+    !
+    ! Errors: none.
+    integer(c_int32_t) function lap_network_free(network) bind(c, name="lap_network_free")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value :: network
+    end function
+  end interface
+
+  public :: lap_network_check
+  interface
+    ! Checks that a network is consistent with what it was made from: vertices in the simplices and on the functions
+    ! that they name, labels that come back around every edge, and everything formed of them.
+    !
+    ! Errors: LAP_ERR_BAD_ARGUMENT if it was made without keep_values; LAP_ERR_INCONSISTENT with a message that names
+    ! the element; LAP_ERR_NULL_POINTER, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: a sort of all edges.
+    integer(c_int32_t) function lap_network_check(context, network) bind(c, name="lap_network_check")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value :: context
+      type(c_ptr), value :: network
+    end function
+  end interface
+
+  public :: lap_network_stage_count
+  interface
+    ! How many stages the making of the network ran through.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_network_stage_count(network, count) bind(c, name="lap_network_stage_count")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value :: network
+      integer(c_int32_t), intent(inout), optional :: count
+    end function
+  end interface
+
+  public :: lap_network_stage
+  interface
+    ! Stage i, from 0, in the order in which they ran: its name and its time in seconds.
+    !
+    ! Outputs (each may be NULL). name is borrowed until the network is freed.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if network is NULL, LAP_ERR_BAD_ARGUMENT if there is no such stage. Threads: any.
+    ! Cost: none.
+    integer(c_int32_t) function lap_network_stage(network, i, name, seconds) bind(c, name="lap_network_stage")
+      import :: c_double, c_int32_t, c_ptr
+      type(c_ptr), value :: network
+      integer(c_int32_t), value :: i
+      type(c_ptr), intent(inout), optional :: name
+      real(c_double), intent(inout), optional :: seconds
+    end function
+  end interface
+
+  public :: lap_network_counts
+  interface
+    ! How many elements a network has.
+    !
+    ! Outputs: each may be NULL; polygons are what the networks paper calls faces. Errors: LAP_ERR_NULL_POINTER if
+    ! network is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_network_counts(network, vertices, edges, polygons, patches, chains, corners, &
+      components, shells, regions) bind(c, name="lap_network_counts")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: network
+      integer(c_int64_t), intent(inout), optional :: vertices
+      integer(c_int64_t), intent(inout), optional :: edges
+      integer(c_int64_t), intent(inout), optional :: polygons
+      integer(c_int64_t), intent(inout), optional :: patches
+      integer(c_int64_t), intent(inout), optional :: chains
+      integer(c_int64_t), intent(inout), optional :: corners
+      integer(c_int64_t), intent(inout), optional :: components
+      integer(c_int64_t), intent(inout), optional :: shells
+      integer(c_int64_t), intent(inout), optional :: regions
+    end function
+  end interface
+
+  public :: lap_network_input
+  interface
+    ! What a network was made from.
+    !
+    ! Outputs (each may be NULL): kind: LAP_NETWORK_*; dim: the dimension, 2 or 3; functions: how many functions or
+    ! materials.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if network is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_network_input(network, kind, dim, functions) bind(c, name="lap_network_input")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: network
+      integer(c_int32_t), intent(inout), optional :: kind
+      integer(c_int32_t), intent(inout), optional :: dim
+      integer(c_int64_t), intent(inout), optional :: functions
+    end function
+  end interface
+
+  public :: lap_network_active
+  interface
+    ! Active simplices by how many functions are active in them: those that are neither positive nor negative at all
+    ! corners; of an interface the materials that no other one exceeds at all corners, where there are two or more.
+    !
+    ! Outputs (each may be NULL; borrowed until the network is freed): count; simplices: count numbers, simplices[k]
+    ! simplices have k active functions.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if network is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_network_active(network, count, simplices) bind(c, name="lap_network_active")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: network
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: simplices
+    end function
+  end interface
+
+  public :: lap_network_vertices
+  interface
+    ! The vertices: no two are the same point, each is a corner of a polygon.
+    !
+    ! Outputs (each may be NULL; borrowed until the network is freed): count; xyz: 3 × count coordinates, each the
+    ! double nearest to the exact one (zero is +0); nodes: 4 × count: the nodes of the smallest simplex (node, edge,
+    ! triangle, tetrahedron) of the domain that holds the vertex, rising, then -1.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if network is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_network_vertices(network, count, xyz, nodes) bind(c, name="lap_network_vertices")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: network
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: xyz
+      type(c_ptr), intent(inout), optional :: nodes
+    end function
+  end interface
+
+  public :: lap_network_vertex_functions
+  interface
+    ! All functions that are zero at each vertex; of an interface all materials that are largest there.
+    !
+    ! Outputs (each may be NULL; borrowed until the network is freed): count: the number of vertices; offsets: count +
+    ! 1; functions: those of vertex v are functions[offsets[v]] up to, not including, functions[offsets[v + 1]], rising.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if network is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_network_vertex_functions(network, count, offsets, &
+      functions) bind(c, name="lap_network_vertex_functions")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: network
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: offsets
+      type(c_ptr), intent(inout), optional :: functions
+    end function
+  end interface
+
+  public :: lap_network_polygons
+  interface
+    ! The polygons, in the order of their simplices.
+    !
+    ! Outputs (each may be NULL; borrowed until the network is freed): count; offsets: count + 1; vertices: those of
+    ! polygon p are vertices[offsets[p]] up to, not including, vertices[offsets[p + 1]], anticlockwise seen from the tip
+    ! of its normal; sets: of each polygon, the functions that it lies on (see lap_network_sets); simplices: 2 × count:
+    ! those before and behind it, the same one twice for a polygon inside a simplex.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if network is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_network_polygons(network, count, offsets, vertices, sets, &
+      simplices) bind(c, name="lap_network_polygons")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: network
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: offsets
+      type(c_ptr), intent(inout), optional :: vertices
+      type(c_ptr), intent(inout), optional :: sets
+      type(c_ptr), intent(inout), optional :: simplices
+    end function
+  end interface
+
+  public :: lap_network_sets
+  interface
+    ! The different sets of functions that polygons lie on, in lexicographic order.
+    !
+    ! Outputs (each may be NULL; borrowed until the network is freed): count; offsets: count + 1; functions: those of
+    ! set s are functions[offsets[s]] up to, not including, functions[offsets[s + 1]], rising; of an interface two
+    ! materials; orientations: one for each of these: how the sign of the function changes along the normal, 1 if it
+    ! rises, -1 if it falls, 0 if it is the same on both sides; of an interface 1 for the material before the polygon,
+    ! -1 for the one behind it.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if network is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_network_sets(network, count, offsets, functions, &
+      orientations) bind(c, name="lap_network_sets")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: network
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: offsets
+      type(c_ptr), intent(inout), optional :: functions
+      type(c_ptr), intent(inout), optional :: orientations
+    end function
+  end interface
+
+  public :: lap_network_edges
+  interface
+    ! The edges, and the polygons around each.
+    !
+    ! Outputs (each may be NULL; borrowed until the network is freed): count; vertices: 2 × count, the lower vertex
+    ! first; offsets: count + 1; polygons: those of edge e are polygons[offsets[e]] up to, not including,
+    ! polygons[offsets[e + 1]], rising.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if network is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_network_edges(network, count, vertices, offsets, &
+      polygons) bind(c, name="lap_network_edges")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: network
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: vertices
+      type(c_ptr), intent(inout), optional :: offsets
+      type(c_ptr), intent(inout), optional :: polygons
+    end function
+  end interface
+
+  public :: lap_network_polygon_patches
+  interface
+    ! The patch of each polygon.
+    !
+    ! Outputs (each may be NULL; borrowed until the network is freed): count: the number of polygons; patches: count;
+    ! turned: count bytes, 1 where the normal of the polygon is against that of the lowest polygon of its patch, which
+    ! is the patch's. (Only polygons with one label on both sides can be, or those of a patch with one side only.)
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if network is NULL, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: turned: linear at the
+    ! first call; then none.
+    integer(c_int32_t) function lap_network_polygon_patches(network, count, patches, &
+      turned) bind(c, name="lap_network_polygon_patches")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: network
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: patches
+      type(c_ptr), intent(inout), optional :: turned
+    end function
+  end interface
+
+  public :: lap_network_patches
+  interface
+    ! The patches, numbered by their lowest polygons.
+    !
+    ! Outputs (each may be NULL; borrowed until the network is freed): count; offsets: count + 1; polygons: those of
+    ! patch p are polygons[offsets[p]] up to, not including, polygons[offsets[p + 1]], rising; they have one set of
+    ! functions; components: the component of each patch, numbered by their lowest polygons.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if network is NULL, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: linear in the polygons
+    ! at the first call, then none.
+    integer(c_int32_t) function lap_network_patches(network, count, offsets, polygons, &
+      components) bind(c, name="lap_network_patches")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: network
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: offsets
+      type(c_ptr), intent(inout), optional :: polygons
+      type(c_ptr), intent(inout), optional :: components
+    end function
+  end interface
+
+  public :: lap_network_chains
+  interface
+    ! The chains, numbered by their lowest edges.
+    !
+    ! Outputs (each may be NULL; borrowed until the network is freed): count; edge_offsets: count + 1; edges: those of
+    ! chain c are edges[edge_offsets[c]] up to, not including, edges[edge_offsets[c + 1]], along it; vertex_offsets:
+    ! count + 1; vertices: along it, one more than edges (in two dimensions one), a loop begins and ends with the same;
+    ! loops: count bytes, 1 where a chain closes without a corner.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if network is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_network_chains(network, count, edge_offsets, edges, vertex_offsets, vertices, &
+      loops) bind(c, name="lap_network_chains")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: network
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: edge_offsets
+      type(c_ptr), intent(inout), optional :: edges
+      type(c_ptr), intent(inout), optional :: vertex_offsets
+      type(c_ptr), intent(inout), optional :: vertices
+      type(c_ptr), intent(inout), optional :: loops
+    end function
+  end interface
+
+  public :: lap_network_chain_patches
+  interface
+    ! The order of patches around each chain.
+    !
+    ! Outputs (each may be NULL; borrowed until the network is freed): count: the number of chains; offsets: count + 1;
+    ! sides: those of chain c are sides[offsets[c]] up to, not including, sides[offsets[c + 1]]: anticlockwise about its
+    ! direction (seen against it), the side of each patch that is met first, 2 p + s; a patch may be there several
+    ! times; gaps: for each of these a byte, 1 where the way from there to the next one (from the last to the first)
+    ! leads out of the domain.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if network is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_network_chain_patches(network, count, offsets, sides, &
+      gaps) bind(c, name="lap_network_chain_patches")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: network
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: offsets
+      type(c_ptr), intent(inout), optional :: sides
+      type(c_ptr), intent(inout), optional :: gaps
+    end function
+  end interface
+
+  public :: lap_network_corners
+  interface
+    ! The corners: vertices where chains end.
+    !
+    ! Outputs (each may be NULL; borrowed until the network is freed): count; vertices: count, rising.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if network is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_network_corners(network, count, vertices) bind(c, name="lap_network_corners")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: network
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: vertices
+    end function
+  end interface
+
+  public :: lap_network_shells
+  interface
+    ! The shells: sides of patches that bound one region along edges.
+    !
+    ! Outputs (each may be NULL; borrowed until the network is freed): count; offsets: count + 1; sides: those of shell
+    ! s are sides[offsets[s]] up to, not including, sides[offsets[s + 1]], rising, 2 p + s' for patch p; regions: the
+    ! region of each shell.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if network is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_network_shells(network, count, offsets, sides, &
+      regions) bind(c, name="lap_network_shells")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: network
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: offsets
+      type(c_ptr), intent(inout), optional :: sides
+      type(c_ptr), intent(inout), optional :: regions
+    end function
+  end interface
+
+  public :: lap_network_regions
+  interface
+    ! The regions: first those with shells, by their lowest shells, then parts of the domain that no polygon touches, by
+    ! their lowest nodes.
+    !
+    ! Outputs (each may be NULL; borrowed until the network is freed): count; offsets: count + 1; shells: those of
+    ! region r are shells[offsets[r]] up to, not including, shells[offsets[r + 1]], rising; simplices: one that holds a
+    ! part of each region.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if network is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_network_regions(network, count, offsets, shells, &
+      simplices) bind(c, name="lap_network_regions")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: network
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: offsets
+      type(c_ptr), intent(inout), optional :: shells
+      type(c_ptr), intent(inout), optional :: simplices
+    end function
+  end interface
+
+  public :: lap_network_region_signs
+  interface
+    ! The sign of every function in each region of an arrangement.
+    !
+    ! Outputs (each may be NULL; borrowed until the network is freed): count: the number of regions; functions: n, the
+    ! number of functions; signs: count × n, that of function f in region r at r n + f: -1, 1, or 0 where the function
+    ! is zero on the whole region.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if network is NULL; LAP_ERR_BAD_ARGUMENT for an interface. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_network_region_signs(network, count, functions, &
+      signs) bind(c, name="lap_network_region_signs")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: network
+      integer(c_int64_t), intent(inout), optional :: count
+      integer(c_int64_t), intent(inout), optional :: functions
+      type(c_ptr), intent(inout), optional :: signs
+    end function
+  end interface
+
+  public :: lap_network_region_materials
+  interface
+    ! The material of each region of an interface: the largest there, of equal ones the lowest. (Which materials are
+    ! equal throughout a part of a simplex, lap_simplex_cell_materials tells of the values at its corners.)
+    !
+    ! Outputs (each may be NULL; borrowed until the network is freed): count: the number of regions; materials: count.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if network is NULL; LAP_ERR_BAD_ARGUMENT for an arrangement. Threads: any. Cost:
+    ! none.
+    integer(c_int32_t) function lap_network_region_materials(network, count, &
+      materials) bind(c, name="lap_network_region_materials")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: network
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: materials
+    end function
+  end interface
+
+  public :: lap_network_triangles
+  interface
+    ! All polygons as triangles, without new vertices; in two dimensions there are none.
+    !
+    ! Outputs (each may be NULL; borrowed until the network is freed): count; vertices: 3 × count, anticlockwise as the
+    ! polygon; polygons: that of each triangle, rising.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if network is NULL, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: linear at the first
+    ! call, then none.
+    integer(c_int32_t) function lap_network_triangles(network, count, vertices, &
+      polygons) bind(c, name="lap_network_triangles")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: network
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: vertices
+      type(c_ptr), intent(inout), optional :: polygons
+    end function
+  end interface
+
+  public :: lap_network_vertex_exact
+  interface
+    ! The exact coordinates of a vertex, as canonical strings, "num/den" or "num" for an integer, in decimal. A GMP or
+    ! CGAL rational reads them.
+    !
+    ! Outputs (each may be NULL): x, y, z: valid until the next call with this context.
+    !
+    ! Errors: LAP_ERR_BAD_ARGUMENT for a vertex that is not there, or if the network was made without keep_values;
+    ! LAP_ERR_NULL_POINTER, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: some microseconds.
+    integer(c_int32_t) function lap_network_vertex_exact(context, network, vertex, x, y, &
+      z) bind(c, name="lap_network_vertex_exact")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value :: context
+      type(c_ptr), value :: network
+      integer(c_int32_t), value :: vertex
+      type(c_ptr), intent(inout), optional :: x
+      type(c_ptr), intent(inout), optional :: y
+      type(c_ptr), intent(inout), optional :: z
+    end function
+  end interface
+
+  public :: lap_network_csg
+  interface
+    ! The boundary of the regions that a boolean expression chooses.
+    !
+    ! expression: text, borrowed for the call, such as "(0 & !1) | 2". A number stands for "that function is positive"
+    ! (of an interface: "it is that material"), -k for "function k is negative", =k for "function k is zero"; ! is not,
+    ! & and, ^ one but not both, | or, in this order of strength; brackets; true and false. Spaces are free. triangles:
+    ! nonzero: polygons are split into triangles, without new vertices. surface: receives the handle, NULL after an
+    ! error; free it with lap_surface_free. It does not need the network.
+    !
+    ! Errors: LAP_ERR_BAD_ARGUMENT with a message that names the first character that does not fit;
+    ! LAP_ERR_NULL_POINTER, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: linear in the polygons, and the regions times the
+    ! expression.
+    integer(c_int32_t) function lap_network_csg(context, network, expression, triangles, &
+      surface) bind(c, name="lap_network_csg")
+      import :: c_char, c_int32_t, c_ptr
+      type(c_ptr), value :: context
+      type(c_ptr), value :: network
+      character(kind=c_char), intent(in), optional :: expression(*)
+      integer(c_int32_t), value :: triangles
+      type(c_ptr), intent(inout), optional :: surface
+    end function
+  end interface
+
+  public :: lap_network_csg_table
+  interface
+    ! The boundary of the regions that a table chooses.
+    !
+    ! table: n_regions bytes, borrowed for the call, nonzero for each region of the network that is chosen; n_regions:
+    ! as many as the network has. Others as for lap_network_csg.
+    !
+    ! Errors: LAP_ERR_BAD_ARGUMENT for a table of another length; LAP_ERR_NULL_POINTER, LAP_ERR_OUT_OF_MEMORY,
+    ! LAP_ERR_BUSY. Cost: linear in the polygons.
+    integer(c_int32_t) function lap_network_csg_table(context, network, n_regions, table, triangles, &
+      surface) bind(c, name="lap_network_csg_table")
+      import :: c_int32_t, c_int64_t, c_int8_t, c_ptr
+      type(c_ptr), value :: context
+      type(c_ptr), value :: network
+      integer(c_int64_t), value :: n_regions
+      integer(c_int8_t), intent(in), optional :: table(*)
+      integer(c_int32_t), value :: triangles
+      type(c_ptr), intent(inout), optional :: surface
+    end function
+  end interface
+
+  public :: lap_network_csg_callback
+  interface
+    ! The boundary of the regions that a callback chooses; it is asked once for each region, rising.
+    !
+    ! user: handed to the callback. Others as for lap_network_csg.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: linear in the polygons, and the
+    ! callbacks.
+    integer(c_int32_t) function lap_network_csg_callback(context, network, callback, user, triangles, &
+      surface) bind(c, name="lap_network_csg_callback")
+      import :: c_funptr, c_int32_t, c_ptr
+      type(c_ptr), value :: context
+      type(c_ptr), value :: network
+      type(c_funptr), value :: callback
+      type(c_ptr), value :: user
+      integer(c_int32_t), value :: triangles
+      type(c_ptr), intent(inout), optional :: surface
+    end function
+  end interface
+
+  public :: lap_surface_free
+  interface
+    ! Frees a surface and all that was borrowed from it. NULL is allowed and does nothing.
+    !
+    ! Errors: none.
+    integer(c_int32_t) function lap_surface_free(surface) bind(c, name="lap_surface_free")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value :: surface
+    end function
+  end interface
+
+  public :: lap_surface_vertices
+  interface
+    ! The vertices of a surface.
+    !
+    ! Outputs (each may be NULL; borrowed until the surface is freed): count; xyz: 3 × count coordinates; sources: the
+    ! vertex of the network that each is, rising.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if surface is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_surface_vertices(surface, count, xyz, sources) bind(c, name="lap_surface_vertices")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: surface
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: xyz
+      type(c_ptr), intent(inout), optional :: sources
+    end function
+  end interface
+
+  public :: lap_surface_polygons
+  interface
+    ! The polygons of a surface, convex; or triangles, if it was made so.
+    !
+    ! Outputs (each may be NULL; borrowed until the surface is freed): count; offsets: count + 1; vertices: those of
+    ! polygon p are vertices[offsets[p]] up to, not including, vertices[offsets[p + 1]], anticlockwise seen from outside
+    ! the solid (in two dimensions: the solid is on the right of the way from the first to the second); births: the
+    ! polygon of the network that each comes from, rising; flipped: a byte for each, 1 where it runs against that
+    ! polygon.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if surface is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_surface_polygons(surface, count, offsets, vertices, births, &
+      flipped) bind(c, name="lap_surface_polygons")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: surface
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: offsets
+      type(c_ptr), intent(inout), optional :: vertices
+      type(c_ptr), intent(inout), optional :: births
+      type(c_ptr), intent(inout), optional :: flipped
     end function
   end interface
 

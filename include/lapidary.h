@@ -198,6 +198,21 @@
  */
 #define LAP_SIMPLEX_PAIR 2
 
+/* The implicit arrangement (IA): surfaces are where functions are zero. */
+#define LAP_NETWORK_ARRANGEMENT 0
+
+/* The material interface (MI): surfaces are where the largest function, the material, changes. */
+#define LAP_NETWORK_INTERFACE 1
+
+/*
+ Regions are found by rays through the grid where these tell (a box, no vertex of the network at a node), else as
+ LAP_REGIONS_CLASSES.
+ */
+#define LAP_REGIONS_AUTOMATIC 0
+
+/* Regions are found as classes of nodes, shells and cells, whatever the domain. The same regions, more time. */
+#define LAP_REGIONS_CLASSES 1
+
 /*
  A complex as triangles over doubles that were checked exactly, repaired where rounding had made triangles meet, and a
  report. Immutable: a const handle may be used from many threads at once.
@@ -262,6 +277,39 @@ typedef struct lap_grid lap_grid;
 typedef struct lap_mesh lap_mesh;
 
 /*
+ The network of piecewise linear functions on a domain of tetrahedra (in two dimensions: triangles): vertices, polygons, and what they
+ form. Exact for any finite values.
+
+ Domain. A simplex is a tetrahedron (triangle); a node is a vertex of the domain, where functions have their values; in a simplex
+ they are linear. A box of nx × ny × nz cubes has node (i, j, k) at i + (nx + 1) (j + (ny + 1) k), cube (i, j, k) at
+ i + nx (j + ny k), and five tetrahedra a cube, 5 c to 5 c + 4 of cube c: one at each corner with even i + j + k, then the one between
+ the corners with odd i + j + k.
+
+ Arrangement: polygons are pieces of the zero sets of functions. A function that is zero on a lower-dimensional part of a
+ simplex only does not split it. A piece of the face between two simplices is a polygon if the sign of a function differs on its sides,
+ or if a function is zero on it and in neither simplex. Functions that are zero on one polygon are listed with it as a set.
+ Interface: polygons are where the regions of two materials meet; where materials are equal on a whole piece, the lowest
+ owns it. There are no polygons on the boundary of the domain.
+
+ Polygons are convex and lie in one simplex or on the face between two. Normals: arrangement: to the positive side of the lowest
+ function that has different signs on the two sides (where none has: into the simplex with the higher number); interface: into the
+ lower material. Loops run anticlockwise seen from the tip of the normal.
+
+ Patch: polygons joined across edges that have two polygons with one set of functions (and are not on the boundary of the domain). Chain: a
+ longest path or loop along other edges with two or more polygons, around which the same patches meet. (An edge with one polygon is a
+ border.) Corner: a vertex where chains end. Component: patches that share vertices. Shell: sides of patches that bound one
+ region along chains. Region: a part of the domain without polygons inside, bounded by shells; its label is the sign of every
+ function, or the material. The side of a patch is 2 p + s for patch p: s is 0 behind its normal, 1 before it.
+
+ Two dimensions: polygons are segments, from the first vertex to the second, with the normal to the left; edges are vertices
+ (both ends are the same); each vertex of the chain kind is a chain and a corner by itself; fourth nodes are -1, third
+ coordinates 0.
+
+ Immutable: a const handle may be used from many threads at once; what is computed on demand is computed once.
+ */
+typedef struct lap_network lap_network;
+
+/*
  The complexes of tetrahedra or triangles, each divided by linear functions that are given by their values at its corners:
  cells, faces, edges and vertices, the simplex's own boundary included. Exact for any finite values.
 
@@ -283,6 +331,14 @@ typedef struct lap_mesh lap_mesh;
  used from many threads at once.
  */
 typedef struct lap_simplex lap_simplex;
+
+/*
+ The boundary of a union of regions of a network: an oriented mesh. Polygons between two regions that were both chosen are gone. It is closed, except where the
+ solid reaches the boundary of the network's domain.
+
+ Immutable: a const handle may be used from many threads at once.
+ */
+typedef struct lap_surface lap_surface;
 
 /*
  Progress of a call: the name of its stage (valid during the callback) and the fraction of the whole call that is
@@ -398,6 +454,29 @@ typedef struct lap_grid_options {
     int32_t known;
     int32_t known_node[3];
 } lap_grid_options;
+
+/* Options of lap_network_new_*; filled by lap_network_options_init. */
+typedef struct lap_network_options {
+    /* Size of this struct in bytes, as the caller was compiled. */
+    int32_t struct_size;
+    /* LAP_NETWORK_ARRANGEMENT, the default, or LAP_NETWORK_INTERFACE. */
+    int32_t kind;
+    /* How regions are found: LAP_REGIONS_AUTOMATIC, the default, or LAP_REGIONS_CLASSES. */
+    int32_t regions;
+    /*
+     Nonzero: keep a copy of the values and of the mesh, which lap_network_vertex_exact and lap_network_check need. 0, the
+     default: do not.
+     */
+    int32_t keep_values;
+} lap_network_options;
+
+/*
+ Whether a region is in the solid: return 0 if not, anything else if it is.
+
+ Runs on the thread that made the call and under the floating-point environment which that thread had. Must
+ return normally (no exception, no longjmp) and must not use the same context (LAP_ERR_BUSY).
+ */
+typedef int32_t (*lap_choose)(void *user, int32_t region);
 
 #ifdef __cplusplus
 extern "C" {
@@ -2113,6 +2192,482 @@ int32_t lap_simplex_cell_volume_exact(struct lap_context *context,
  */
 int32_t lap_simplex_check(struct lap_context *context,
                           const struct lap_simplex *simplex);
+
+/*
+ Fills network options with the defaults.
+
+ struct_size: pass (int32_t)sizeof(lap_network_options); no more than that is written, so a program compiled against an
+ older header keeps working.
+
+ Errors: LAP_ERR_NULL_POINTER; LAP_ERR_BAD_ARGUMENT if the size is not a multiple of 4 in 4..4096.
+ */
+int32_t lap_network_options_init(struct lap_network_options *options,
+                                 int32_t struct_size);
+
+/*
+ The network of functions on a box of cubes, of which nothing is stored.
+
+ Inputs (borrowed for the call): cells: 3 numbers, cubes along x, y and z, 1 or more; bounds: lowest x, y, z, highest x, y, z: node i
+ of n + 1 along an axis is at (i / n) (highest - lowest) + lowest, computed in doubles as written; or NULL: then it is at i;
+ n_functions: functions, or materials; an arrangement may have none; values: that of function f at node i is
+ values[f × function_stride + i × node_stride], so with one array per function behind the other the strides are the number of nodes and
+ 1, and with interleaved values 1 and n_functions; options: or NULL for the defaults.
+ network: receives the handle, NULL after an error or cancel; free it with lap_network_free. It does not need the context to
+ stay alive.
+
+ Errors: LAP_ERR_BAD_ARGUMENT for cells below 1, bounds that are not finite or do not rise, a stride below 1, a negative count, an
+ interface of no materials, an option that there is not, and, with a message that names function and node, for a value that is
+ NaN or infinite; LAP_ERR_TOO_LARGE if the box has 2^30 nodes or tetrahedra or more, or the result more elements than 32-bit
+ indices can number; LAP_ERR_NULL_POINTER, LAP_ERR_CANCELLED, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: reading the values
+ once, else it grows with the simplices that surfaces cross and the polygons in them.
+ */
+int32_t lap_network_new_box(struct lap_context *context,
+                            const int32_t *cells,
+                            const double *bounds,
+                            int64_t n_functions,
+                            const double *values,
+                            int64_t function_stride,
+                            int64_t node_stride,
+                            const struct lap_network_options *options,
+                            struct lap_network **network);
+
+/*
+ The network of functions on a conforming mesh of tetrahedra: any, connected or not, with holes and handles.
+
+ Inputs (borrowed for the call): xyz: 3 × n_nodes coordinates; tets: 4 × n_tets nodes; the corners of a tetrahedron in either
+ orientation; nodes without tetrahedra are allowed. Two tetrahedra that share three nodes must lie on different sides of that face.
+ (Tetrahedra that overlap without sharing a face are not looked for: the network is then the union of what each holds.) Others as for
+ lap_network_new_box, with values at the n_nodes nodes.
+ network: receives the handle, NULL after an error or cancel; free it with lap_network_free.
+
+ Errors: LAP_ERR_BAD_MESH with LAP_DEFECT_NON_FINITE_COORDINATE, LAP_DEFECT_INDEX_OUT_OF_RANGE,
+ LAP_DEFECT_DEGENERATE_SIMPLEX or LAP_DEFECT_OVERLAPPING_SIMPLICES; LAP_ERR_TOO_LARGE for 2^30 nodes or tetrahedra or more; others
+ as for lap_network_new_box. Cost: linear in the mesh; faces are sorted around their lowest nodes.
+ */
+int32_t lap_network_new_tets(struct lap_context *context,
+                             int64_t n_nodes,
+                             const double *xyz,
+                             int64_t n_tets,
+                             const int32_t *tets,
+                             int64_t n_functions,
+                             const double *values,
+                             int64_t function_stride,
+                             int64_t node_stride,
+                             const struct lap_network_options *options,
+                             struct lap_network **network);
+
+/*
+ The network of functions on a conforming mesh of triangles in the plane: the same one dimension down.
+
+ Inputs (borrowed for the call): xy: 2 × n_nodes coordinates; triangles: 3 × n_triangles nodes, in either orientation; others as for
+ lap_network_new_tets.
+ network: receives the handle, NULL after an error or cancel; free it with lap_network_free.
+
+ Errors, cost: as for lap_network_new_tets.
+ */
+int32_t lap_network_new_triangles(struct lap_context *context,
+                                  int64_t n_nodes,
+                                  const double *xy,
+                                  int64_t n_triangles,
+                                  const int32_t *triangles,
+                                  int64_t n_functions,
+                                  const double *values,
+                                  int64_t function_stride,
+                                  int64_t node_stride,
+                                  const struct lap_network_options *options,
+                                  struct lap_network **network);
+
+/*
+ Frees a network and all that was borrowed from it. NULL is allowed and does nothing. (Surfaces made from it stay.)
+
+ Errors: none.
+ */
+int32_t lap_network_free(struct lap_network *network);
+
+/*
+ Checks that a network is consistent with what it was made from: vertices in the simplices and on the functions that they
+ name, labels that come back around every edge, and everything formed of them.
+
+ Errors: LAP_ERR_BAD_ARGUMENT if it was made without keep_values; LAP_ERR_INCONSISTENT with a message that names the element;
+ LAP_ERR_NULL_POINTER, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: a sort of all edges.
+ */
+int32_t lap_network_check(struct lap_context *context,
+                          const struct lap_network *network);
+
+/*
+ How many stages the making of the network ran through.
+
+ Errors: LAP_ERR_NULL_POINTER. Threads: any. Cost: none.
+ */
+int32_t lap_network_stage_count(const struct lap_network *network, int32_t *count);
+
+/*
+ Stage i, from 0, in the order in which they ran: its name and its time in seconds.
+
+ Outputs (each may be NULL). name is borrowed until the network is freed.
+
+ Errors: LAP_ERR_NULL_POINTER if network is NULL, LAP_ERR_BAD_ARGUMENT if there is no such stage. Threads: any. Cost: none.
+ */
+int32_t lap_network_stage(const struct lap_network *network,
+                          int32_t i,
+                          const char **name,
+                          double *seconds);
+
+/*
+ How many elements a network has.
+
+ Outputs: each may be NULL; polygons are what the networks paper calls faces. Errors: LAP_ERR_NULL_POINTER if network is NULL.
+ Threads: any. Cost: none.
+ */
+int32_t lap_network_counts(const struct lap_network *network,
+                           int64_t *vertices,
+                           int64_t *edges,
+                           int64_t *polygons,
+                           int64_t *patches,
+                           int64_t *chains,
+                           int64_t *corners,
+                           int64_t *components,
+                           int64_t *shells,
+                           int64_t *regions);
+
+/*
+ What a network was made from.
+
+ Outputs (each may be NULL): kind: LAP_NETWORK_*; dim: the dimension, 2 or 3; functions: how many functions or materials.
+
+ Errors: LAP_ERR_NULL_POINTER if network is NULL. Threads: any. Cost: none.
+ */
+int32_t lap_network_input(const struct lap_network *network,
+                          int32_t *kind,
+                          int32_t *dim,
+                          int64_t *functions);
+
+/*
+ Active simplices by how many functions are active in them: those that are neither positive nor negative at all corners; of an
+ interface the materials that no other one exceeds at all corners, where there are two or more.
+
+ Outputs (each may be NULL; borrowed until the network is freed): count; simplices: count numbers, simplices[k] simplices have k
+ active functions.
+
+ Errors: LAP_ERR_NULL_POINTER if network is NULL. Threads: any. Cost: none.
+ */
+int32_t lap_network_active(const struct lap_network *network,
+                           int64_t *count,
+                           const int64_t **simplices);
+
+/*
+ The vertices: no two are the same point, each is a corner of a polygon.
+
+ Outputs (each may be NULL; borrowed until the network is freed): count; xyz: 3 × count coordinates, each the double nearest to
+ the exact one (zero is +0); nodes: 4 × count: the nodes of the smallest simplex (node, edge, triangle, tetrahedron) of the domain that
+ holds the vertex, rising, then -1.
+
+ Errors: LAP_ERR_NULL_POINTER if network is NULL. Threads: any. Cost: none.
+ */
+int32_t lap_network_vertices(const struct lap_network *network,
+                             int64_t *count,
+                             const double **xyz,
+                             const int32_t **nodes);
+
+/*
+ All functions that are zero at each vertex; of an interface all materials that are largest there.
+
+ Outputs (each may be NULL; borrowed until the network is freed): count: the number of vertices; offsets: count + 1; functions: those of
+ vertex v are functions[offsets[v]] up to, not including, functions[offsets[v + 1]], rising.
+
+ Errors: LAP_ERR_NULL_POINTER if network is NULL. Threads: any. Cost: none.
+ */
+int32_t lap_network_vertex_functions(const struct lap_network *network,
+                                     int64_t *count,
+                                     const int32_t **offsets,
+                                     const int32_t **functions);
+
+/*
+ The polygons, in the order of their simplices.
+
+ Outputs (each may be NULL; borrowed until the network is freed): count; offsets: count + 1; vertices: those of polygon p are
+ vertices[offsets[p]] up to, not including, vertices[offsets[p + 1]], anticlockwise seen from the tip of its normal; sets: of each
+ polygon, the functions that it lies on (see lap_network_sets); simplices: 2 × count: those before and behind it, the same one
+ twice for a polygon inside a simplex.
+
+ Errors: LAP_ERR_NULL_POINTER if network is NULL. Threads: any. Cost: none.
+ */
+int32_t lap_network_polygons(const struct lap_network *network,
+                             int64_t *count,
+                             const int32_t **offsets,
+                             const int32_t **vertices,
+                             const int32_t **sets,
+                             const int32_t **simplices);
+
+/*
+ The different sets of functions that polygons lie on, in lexicographic order.
+
+ Outputs (each may be NULL; borrowed until the network is freed): count; offsets: count + 1; functions: those of set s are
+ functions[offsets[s]] up to, not including, functions[offsets[s + 1]], rising; of an interface two materials; orientations: one for
+ each of these: how the sign of the function changes along the normal, 1 if it rises, -1 if it falls, 0 if it is the same on both
+ sides; of an interface 1 for the material before the polygon, -1 for the one behind it.
+
+ Errors: LAP_ERR_NULL_POINTER if network is NULL. Threads: any. Cost: none.
+ */
+int32_t lap_network_sets(const struct lap_network *network,
+                         int64_t *count,
+                         const int32_t **offsets,
+                         const int32_t **functions,
+                         const int32_t **orientations);
+
+/*
+ The edges, and the polygons around each.
+
+ Outputs (each may be NULL; borrowed until the network is freed): count; vertices: 2 × count, the lower vertex first; offsets: count +
+ 1; polygons: those of edge e are polygons[offsets[e]] up to, not including, polygons[offsets[e + 1]], rising.
+
+ Errors: LAP_ERR_NULL_POINTER if network is NULL. Threads: any. Cost: none.
+ */
+int32_t lap_network_edges(const struct lap_network *network,
+                          int64_t *count,
+                          const int32_t **vertices,
+                          const int32_t **offsets,
+                          const int32_t **polygons);
+
+/*
+ The patch of each polygon.
+
+ Outputs (each may be NULL; borrowed until the network is freed): count: the number of polygons; patches: count; turned: count bytes, 1
+ where the normal of the polygon is against that of the lowest polygon of its patch, which is the patch's. (Only polygons with one
+ label on both sides can be, or those of a patch with one side only.)
+
+ Errors: LAP_ERR_NULL_POINTER if network is NULL, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: turned: linear at the first call;
+ then none.
+ */
+int32_t lap_network_polygon_patches(const struct lap_network *network,
+                                    int64_t *count,
+                                    const int32_t **patches,
+                                    const uint8_t **turned);
+
+/*
+ The patches, numbered by their lowest polygons.
+
+ Outputs (each may be NULL; borrowed until the network is freed): count; offsets: count + 1; polygons: those of patch p are
+ polygons[offsets[p]] up to, not including, polygons[offsets[p + 1]], rising; they have one set of functions; components: the
+ component of each patch, numbered by their lowest polygons.
+
+ Errors: LAP_ERR_NULL_POINTER if network is NULL, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: linear in the polygons at the
+ first call, then none.
+ */
+int32_t lap_network_patches(const struct lap_network *network,
+                            int64_t *count,
+                            const int32_t **offsets,
+                            const int32_t **polygons,
+                            const int32_t **components);
+
+/*
+ The chains, numbered by their lowest edges.
+
+ Outputs (each may be NULL; borrowed until the network is freed): count; edge_offsets: count + 1; edges: those of chain c are
+ edges[edge_offsets[c]] up to, not including, edges[edge_offsets[c + 1]], along it; vertex_offsets: count + 1; vertices: along it,
+ one more than edges (in two dimensions one), a loop begins and ends with the same; loops: count bytes, 1 where a chain closes without
+ a corner.
+
+ Errors: LAP_ERR_NULL_POINTER if network is NULL. Threads: any. Cost: none.
+ */
+int32_t lap_network_chains(const struct lap_network *network,
+                           int64_t *count,
+                           const int32_t **edge_offsets,
+                           const int32_t **edges,
+                           const int32_t **vertex_offsets,
+                           const int32_t **vertices,
+                           const uint8_t **loops);
+
+/*
+ The order of patches around each chain.
+
+ Outputs (each may be NULL; borrowed until the network is freed): count: the number of chains; offsets: count + 1; sides: those of
+ chain c are sides[offsets[c]] up to, not including, sides[offsets[c + 1]]: anticlockwise about its direction (seen against it), the side
+ of each patch that is met first, 2 p + s; a patch may be there several times; gaps: for each of these a byte, 1 where the
+ way from there to the next one (from the last to the first) leads out of the domain.
+
+ Errors: LAP_ERR_NULL_POINTER if network is NULL. Threads: any. Cost: none.
+ */
+int32_t lap_network_chain_patches(const struct lap_network *network,
+                                  int64_t *count,
+                                  const int32_t **offsets,
+                                  const int32_t **sides,
+                                  const uint8_t **gaps);
+
+/*
+ The corners: vertices where chains end.
+
+ Outputs (each may be NULL; borrowed until the network is freed): count; vertices: count, rising.
+
+ Errors: LAP_ERR_NULL_POINTER if network is NULL. Threads: any. Cost: none.
+ */
+int32_t lap_network_corners(const struct lap_network *network, int64_t *count, const int32_t **vertices);
+
+/*
+ The shells: sides of patches that bound one region along edges.
+
+ Outputs (each may be NULL; borrowed until the network is freed): count; offsets: count + 1; sides: those of shell s are
+ sides[offsets[s]] up to, not including, sides[offsets[s + 1]], rising, 2 p + s' for patch p; regions: the region of each shell.
+
+ Errors: LAP_ERR_NULL_POINTER if network is NULL. Threads: any. Cost: none.
+ */
+int32_t lap_network_shells(const struct lap_network *network,
+                           int64_t *count,
+                           const int32_t **offsets,
+                           const int32_t **sides,
+                           const int32_t **regions);
+
+/*
+ The regions: first those with shells, by their lowest shells, then parts of the domain that no polygon touches, by their lowest nodes.
+
+ Outputs (each may be NULL; borrowed until the network is freed): count; offsets: count + 1; shells: those of region r are
+ shells[offsets[r]] up to, not including, shells[offsets[r + 1]], rising; simplices: one that holds a part of each region.
+
+ Errors: LAP_ERR_NULL_POINTER if network is NULL. Threads: any. Cost: none.
+ */
+int32_t lap_network_regions(const struct lap_network *network,
+                            int64_t *count,
+                            const int32_t **offsets,
+                            const int32_t **shells,
+                            const int32_t **simplices);
+
+/*
+ The sign of every function in each region of an arrangement.
+
+ Outputs (each may be NULL; borrowed until the network is freed): count: the number of regions; functions: n, the number of functions;
+ signs: count × n, that of function f in region r at r n + f: -1, 1, or 0 where the function is zero on the whole region.
+
+ Errors: LAP_ERR_NULL_POINTER if network is NULL; LAP_ERR_BAD_ARGUMENT for an interface. Threads: any. Cost: none.
+ */
+int32_t lap_network_region_signs(const struct lap_network *network,
+                                 int64_t *count,
+                                 int64_t *functions,
+                                 const int32_t **signs);
+
+/*
+ The material of each region of an interface: the largest there, of equal ones the lowest. (Which materials are equal throughout a
+ part of a simplex, lap_simplex_cell_materials tells of the values at its corners.)
+
+ Outputs (each may be NULL; borrowed until the network is freed): count: the number of regions; materials: count.
+
+ Errors: LAP_ERR_NULL_POINTER if network is NULL; LAP_ERR_BAD_ARGUMENT for an arrangement. Threads: any. Cost: none.
+ */
+int32_t lap_network_region_materials(const struct lap_network *network,
+                                     int64_t *count,
+                                     const int32_t **materials);
+
+/*
+ All polygons as triangles, without new vertices; in two dimensions there are none.
+
+ Outputs (each may be NULL; borrowed until the network is freed): count; vertices: 3 × count, anticlockwise as the polygon; polygons: that
+ of each triangle, rising.
+
+ Errors: LAP_ERR_NULL_POINTER if network is NULL, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: linear at the first call, then none.
+ */
+int32_t lap_network_triangles(const struct lap_network *network,
+                              int64_t *count,
+                              const int32_t **vertices,
+                              const int32_t **polygons);
+
+/*
+ The exact coordinates of a vertex, as canonical strings, "num/den" or "num" for an integer, in decimal. A GMP or CGAL rational reads
+ them.
+
+ Outputs (each may be NULL): x, y, z: valid until the next call with this context.
+
+ Errors: LAP_ERR_BAD_ARGUMENT for a vertex that is not there, or if the network was made without keep_values;
+ LAP_ERR_NULL_POINTER, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: some microseconds.
+ */
+int32_t lap_network_vertex_exact(struct lap_context *context,
+                                 const struct lap_network *network,
+                                 int32_t vertex,
+                                 const char **x,
+                                 const char **y,
+                                 const char **z);
+
+/*
+ The boundary of the regions that a boolean expression chooses.
+
+ expression: text, borrowed for the call, such as "(0 & !1) | 2". A number stands for "that function is positive" (of an interface:
+ "it is that material"), -k for "function k is negative", =k for "function k is zero"; ! is not, & and, ^ one but not both, | or, in
+ this order of strength; brackets; true and false. Spaces are free. triangles: nonzero: polygons are split into triangles, without new
+ vertices. surface: receives the handle, NULL after an error; free it with lap_surface_free. It does not need the network.
+
+ Errors: LAP_ERR_BAD_ARGUMENT with a message that names the first character that does not fit; LAP_ERR_NULL_POINTER,
+ LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: linear in the polygons, and the regions times the expression.
+ */
+int32_t lap_network_csg(struct lap_context *context,
+                        const struct lap_network *network,
+                        const char *expression,
+                        int32_t triangles,
+                        struct lap_surface **surface);
+
+/*
+ The boundary of the regions that a table chooses.
+
+ table: n_regions bytes, borrowed for the call, nonzero for each region of the network that is chosen; n_regions: as many as the network has.
+ Others as for lap_network_csg.
+
+ Errors: LAP_ERR_BAD_ARGUMENT for a table of another length; LAP_ERR_NULL_POINTER, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: linear in
+ the polygons.
+ */
+int32_t lap_network_csg_table(struct lap_context *context,
+                              const struct lap_network *network,
+                              int64_t n_regions,
+                              const uint8_t *table,
+                              int32_t triangles,
+                              struct lap_surface **surface);
+
+/*
+ The boundary of the regions that a callback chooses; it is asked once for each region, rising.
+
+ user: handed to the callback. Others as for lap_network_csg.
+
+ Errors: LAP_ERR_NULL_POINTER, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: linear in the polygons, and the callbacks.
+ */
+int32_t lap_network_csg_callback(struct lap_context *context,
+                                 const struct lap_network *network,
+                                 lap_choose callback,
+                                 void *user,
+                                 int32_t triangles,
+                                 struct lap_surface **surface);
+
+/*
+ Frees a surface and all that was borrowed from it. NULL is allowed and does nothing.
+
+ Errors: none.
+ */
+int32_t lap_surface_free(struct lap_surface *surface);
+
+/*
+ The vertices of a surface.
+
+ Outputs (each may be NULL; borrowed until the surface is freed): count; xyz: 3 × count coordinates; sources: the vertex of the network
+ that each is, rising.
+
+ Errors: LAP_ERR_NULL_POINTER if surface is NULL. Threads: any. Cost: none.
+ */
+int32_t lap_surface_vertices(const struct lap_surface *surface,
+                             int64_t *count,
+                             const double **xyz,
+                             const int32_t **sources);
+
+/*
+ The polygons of a surface, convex; or triangles, if it was made so.
+
+ Outputs (each may be NULL; borrowed until the surface is freed): count; offsets: count + 1; vertices: those of polygon p are vertices[offsets[p]]
+ up to, not including, vertices[offsets[p + 1]], anticlockwise seen from outside the solid (in two dimensions: the solid is on
+ the right of the way from the first to the second); births: the polygon of the network that each comes from, rising; flipped: a
+ byte for each, 1 where it runs against that polygon.
+
+ Errors: LAP_ERR_NULL_POINTER if surface is NULL. Threads: any. Cost: none.
+ */
+int32_t lap_surface_polygons(const struct lap_surface *surface,
+                             int64_t *count,
+                             const int32_t **offsets,
+                             const int32_t **vertices,
+                             const int32_t **births,
+                             const uint8_t **flipped);
 
 #ifdef __cplusplus
 }  // extern "C"

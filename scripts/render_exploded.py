@@ -1,9 +1,10 @@
 #!/usr/bin/python3
-"""Renders an exploded view, as `cut_mesh --exploded FILE.vtp` writes it, to a PNG.
+"""Renders an exploded view, as `cut_mesh --exploded FILE.vtp` writes it, or a network by patches or regions, as `extract_network --patches
+FILE.vtp` and `--exploded FILE.vtp` do, to a PNG.
 
-    render_exploded.py EXPLODED.vtp PICTURE.png [--size 1600] [--azimuth 30] [--elevation 20] [--up y]
+    render_exploded.py EXPLODED.vtp PICTURE.png [--size 1600] [--azimuth 30] [--elevation 20] [--line 1] [--up y]
 
-One flat colour per cell, red tubes along the lines where planes meet the model, white background. Draws off screen, but
+One flat colour per cell, red tubes along the lines where planes meet the model (surfaces meet), white background. Draws off screen, but
 Debian's VTK still wants an X server: call it as `xvfb-run -a render_exploded.py ...` on a machine without a display.
 """
 
@@ -100,6 +101,7 @@ def main():
     parser.add_argument("--size", type=int, default=1600, help="pixels of the longer side")
     parser.add_argument("--azimuth", type=float, default=30)
     parser.add_argument("--elevation", type=float, default=20)
+    parser.add_argument("--line", type=float, default=1, help="thickness of lines")
     parser.add_argument("--up", choices="xyz", default="y")
     options = parser.parse_args()
 
@@ -132,7 +134,7 @@ def main():
 
     tubes = vtkTubeFilter()
     tubes.SetInputData(part(data, lines=True))
-    tubes.SetRadius(size * 0.0011)
+    tubes.SetRadius(size * 0.0011 * options.line)
     tubes.SetNumberOfSides(8)
     tubes.CappingOn()
     curves = vtkPolyDataMapper()

@@ -5,8 +5,8 @@
 mod random;
 
 use lapidary::capi::{
-    context::*, cut::*, derived::*, grid::*, grid_boxes::*, grid_moments::*, keys::*, mesh::*, network::*, network_surface::*,
-    network_views::*, status::*,
+    context::*, cut::*, derived::*, grid::*, grid_boxes::*, grid_moments::*, keys::*, mesh::*, network::*,
+    network_surface::*, network_views::*, status::*,
 };
 use random::Random;
 use std::ptr::{null, null_mut};
@@ -408,7 +408,8 @@ fn any_network_ends_with_a_status() {
                     let exact: rug::Rational = std::ffi::CStr::from_ptr(*text).to_str().unwrap().parse().unwrap();
                     let got = *xyz.add(3 * v + k);
                     let distance = |x: f64| (rug::Rational::from_f64(x).unwrap() - &exact).abs();
-                    let nearest = distance(got) <= distance(got.next_up()) && distance(got) <= distance(got.next_down());
+                    let nearest =
+                        distance(got) <= distance(got.next_up()) && distance(got) <= distance(got.next_down());
                     assert!(nearest, "round {round}: {got} is not the double nearest to {exact}");
                 }
             }

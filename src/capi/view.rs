@@ -5,10 +5,10 @@ use crate::base::{
     ShellId, Status, TetId, VertexId,
 };
 use crate::complex::{HalfCorner, HalfFace, Key};
+use crate::network::patches::HalfPatch;
 use crate::network::simplex::{
     Carrier, LocalCell, LocalEdge, LocalFace, LocalFunction, LocalHalfFace, LocalPlane, LocalVertex,
 };
-use crate::network::patches::HalfPatch;
 
 /// Writes through an output pointer, unless the caller does not want that output.
 ///
