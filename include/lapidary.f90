@@ -2809,7 +2809,7 @@ module lapidary
     ! orientation; others as for lap_network_new_tets. network: receives the handle, NULL after an error or cancel; free
     ! it with lap_network_free.
     !
-    ! Errors, cost: as for lap_network_new_tets.
+    ! Errors: as for lap_network_new_tets. Cost: as well.
     integer(c_int32_t) function lap_network_new_triangles(context, n_nodes, xy, n_triangles, triangles, n_functions, &
       values, function_stride, node_stride, options, network) bind(c, name="lap_network_new_triangles")
       import :: c_double, c_int32_t, c_int64_t, c_ptr, lap_network_options

@@ -2263,7 +2263,7 @@ int32_t lap_network_new_tets(struct lap_context *context,
  lap_network_new_tets.
  network: receives the handle, NULL after an error or cancel; free it with lap_network_free.
 
- Errors, cost: as for lap_network_new_tets.
+ Errors: as for lap_network_new_tets. Cost: as well.
  */
 int32_t lap_network_new_triangles(struct lap_context *context,
                                   int64_t n_nodes,

@@ -195,7 +195,7 @@ pub unsafe extern "C" fn lap_network_new_tets(
 /// lap_network_new_tets.
 /// network: receives the handle, NULL after an error or cancel; free it with lap_network_free.
 ///
-/// Errors, cost: as for lap_network_new_tets.
+/// Errors: as for lap_network_new_tets. Cost: as well.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn lap_network_new_triangles(
     context: *mut lap_context,

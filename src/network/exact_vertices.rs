@@ -59,7 +59,7 @@ pub fn exact_vertex(network: &Network, domain: &Domain, values: &Values, v: Vert
     let mut point: [Rational; 3] = Default::default();
     for (weight, &node) in weights.iter().zip(&nodes[..count]) {
         for (to, x) in point.iter_mut().zip(domain.coordinates(node)) {
-            *to += Rational::from(weight * of(x)) / &sum;
+            *to += weight * of(x) / &sum;
         }
     }
     point
