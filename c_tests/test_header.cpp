@@ -48,5 +48,27 @@ int main()
     lapidary::context moved = std::move(context);
     const lapidary::cut cut(moved, mesh, {1, 0, 0, -0.5});
     check(calls > 0 && cut.complex().counts().cells == 2 && cut.plane_map().size() == 1 && !cut.stages().empty());
+
+    /* Two planes that cross in a cube. */
+    const std::vector<double> values = {-1, 1, -1, 1, -1, 1, -1, 1, -1, -1, 1, 1, -1, -1, 1, 1};
+    lapidary::network::values_t planes;
+    planes.data = values.data();
+    planes.functions = 2;
+    planes.function_stride = 8;
+    lapidary::network network = lapidary::network::box(moved, {1, 1, 1}, nullptr, planes);
+    check(network.counts().patches == 4 && network.counts().regions == 4 && network.chains().edges.size() == 1);
+    check(network.chain_patches().sides[0].size() == 4 && network.chain_patches().gaps[0][3] == 0);
+    check(network.sets().functions[1][0] == 1 && network.sets().orientations[1][0] == 1);
+    check(network.region_signs(3).size() == 2 && !network.stages().empty());
+    const lapidary::surface quarter = network.csg(moved, "0 & 1");
+    check(!quarter.polygons().births.empty() && quarter.vertices().xyz.size() == quarter.vertices().sources.size());
+    const std::function<bool(std::int32_t)> none = [](std::int32_t) { return false; };
+    check(network.csg(moved, none).polygons().vertices.size() == 0);
+    try {
+        network.csg(moved, "0 &");
+        check(false);
+    } catch (const lapidary::error &e) {
+        check(e.status() == LAP_ERR_BAD_ARGUMENT);
+    }
     return failures;
 }
