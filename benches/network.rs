@@ -4,6 +4,7 @@
 //! - `degeneracies [COUNT]`: how often near-degenerate inputs give the same complex in two orders (Table 1 of the paper); with
 //!   `--features plain-signs` also if signs are those of plain doubles.
 //! - `regions FILE N [THREADS [REPEATS [ia|mi]]]`: the same, and all that the polygons form.
+//! - `tables [NAME]`: nanoseconds per look-up of one simplex.
 //! - `simplex [NAME]`: microseconds per arrangement and interface of one simplex, incremental.
 
 #[path = "network/degeneracies.rs"]
@@ -12,6 +13,8 @@ mod degeneracies;
 mod grid;
 #[path = "network/simplex.rs"]
 mod simplex;
+#[path = "network/tables.rs"]
+mod tables;
 
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).filter(|a| a != "--bench").collect();
@@ -20,8 +23,10 @@ fn main() {
         Some("regions") => grid::main(&arguments[1..], true),
         Some("degeneracies") => degeneracies::main(&arguments[1..]),
         Some("simplex") => simplex::main(&arguments[1..]),
+        Some("tables") => tables::main(&arguments[1..]),
         _ => println!(
-            "usage: network (grid | regions) FILE N [THREADS [REPEATS [ia|mi]]] | simplex [NAME] | degeneracies [COUNT]"
+            "usage: network (grid | regions) FILE N [THREADS [REPEATS [ia|mi]]] | simplex [NAME] | tables [NAME] \
+             | degeneracies [COUNT]"
         ),
     }
 }

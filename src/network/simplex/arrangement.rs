@@ -10,8 +10,10 @@
 //! the flood first goes through all faces at which the function touches, until it has met either a cell that is crossed or a
 //! face on which the function vanishes; then its plane is an older one, and nothing is split.
 
-use super::data::{Scratch, SimplexComplex};
+use super::data::{Kind, Scratch, SimplexComplex};
 use super::export;
+use super::table_view::View;
+use super::tables::find_table;
 use super::work::{Class, EDGE_CORNERS, FACETS, NONE, Work};
 
 /// In `function_plane`: the function vanishes everywhere; it vanishes at most on a corner or an edge of the simplex.
@@ -22,9 +24,17 @@ pub(super) const NOWHERE: u32 = NONE;
 const FEW: usize = 48;
 
 /// The arrangement of `values.len() / (dim + 1)` functions (any number, none included) in a simplex of dimension `dim` (2 or 3).
-/// `values`: finite, function-major, `values[f * (dim + 1) + corner]`. Cost: a few hundred nanoseconds for each cell; see the head of
-/// this file.
+/// `values`: finite, function-major, `values[f * (dim + 1) + corner]`. Cost: one or two functions are looked up ([`super::tables`]), others
+/// take a few hundred nanoseconds for each cell; see the head of this file.
 pub fn arrangement(dim: usize, values: &[f64], scratch: &mut Scratch, out: &mut SimplexComplex) {
+    match find_table(Kind::Arrangement, dim, values) {
+        Some(found) => View::new(found).fill(out),
+        None => arrangement_incremental(dim, values, scratch, out),
+    }
+}
+
+/// The same without tables, which are made from it. Elements have other numbers.
+pub fn arrangement_incremental(dim: usize, values: &[f64], scratch: &mut Scratch, out: &mut SimplexComplex) {
     debug_assert!(dim == 2 || dim == 3);
     let Scratch { work, maps } = scratch;
     work.start(dim, values, false);

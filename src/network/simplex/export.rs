@@ -22,7 +22,7 @@ pub(super) struct Maps {
 }
 
 impl SimplexComplex {
-    fn clear(&mut self, kind: Kind, dim: usize, functions: usize) {
+    pub(super) fn clear(&mut self, kind: Kind, dim: usize, functions: usize) {
         (self.kind, self.dim, self.functions) = (kind, dim, functions);
         self.vertex_carrier.clear();
         self.vertex_encoding.clear();

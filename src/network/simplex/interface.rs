@@ -17,14 +17,24 @@
 //! which f_i equals the envelope and of whose cells one is dropped becomes a face of the new cell. The summit is always
 //! negative, so some part always stays.
 
-use super::data::{Scratch, SimplexComplex};
+use super::data::{Kind, Scratch, SimplexComplex};
 use super::export;
+use super::table_view::View;
+use super::tables::find_table;
 use super::work::{Class, FACETS, NONE, State, Work};
 
 /// The material interface of `values.len() / (dim + 1)` materials (at least one) in a simplex of dimension `dim` (2 or 3).
-/// `values`: finite, material-major, `values[m * (dim + 1) + corner]`. Cost: some nanoseconds for each material and vertex, some
-/// hundred for each element that is made.
+/// `values`: finite, material-major, `values[m * (dim + 1) + corner]`. Cost: two or three materials are looked up ([`super::tables`]), others
+/// take some nanoseconds for each material and vertex, some hundred for each element that is made.
 pub fn interface(dim: usize, values: &[f64], scratch: &mut Scratch, out: &mut SimplexComplex) {
+    match find_table(Kind::Interface, dim, values) {
+        Some(found) => View::new(found).fill(out),
+        None => interface_incremental(dim, values, scratch, out),
+    }
+}
+
+/// The same without tables, which are made from it. Elements have other numbers.
+pub fn interface_incremental(dim: usize, values: &[f64], scratch: &mut Scratch, out: &mut SimplexComplex) {
     debug_assert!(dim == 2 || dim == 3);
     debug_assert!(values.len() > dim);
     let Scratch { work, maps } = scratch;

@@ -12,12 +12,16 @@ pub mod interface;
 mod plain;
 mod signs;
 mod split;
+mod table_view;
+pub mod tables;
 mod work;
 
-pub use arrangement::arrangement;
+pub use arrangement::{arrangement, arrangement_incremental};
 pub use check::check;
 pub use data::{
     Carrier, FaceSupport, Kind, LocalCell, LocalEdge, LocalFace, LocalFunction, LocalHalfFace, LocalPlane, LocalVertex,
     Scratch, SimplexComplex,
 };
-pub use interface::interface;
+pub use interface::{interface, interface_incremental};
+pub use table_view::{View, ViewFace};
+pub use tables::{Found, find_table};
