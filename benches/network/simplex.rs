@@ -1,7 +1,9 @@
 //! Single tetrahedra (and triangles) by the incremental construction: the time of one call, mean over many inputs, best of
 //! several rounds. An argument keeps the lines that contain it.
 
-use lapidary::network::simplex::{Scratch, SimplexComplex, arrangement, interface};
+use lapidary::network::simplex::{
+    Scratch, SimplexComplex, arrangement_incremental as arrangement, interface_incremental as interface,
+};
 use std::hint::black_box;
 use std::time::Instant;
 

@@ -1,9 +1,7 @@
 //! Look-ups for batches of simplices: nanoseconds for one table entry with its symmetry, for polygons read in place, and for the complex
 //! written out; and what the incremental construction takes. Best of several rounds. An argument keeps the lines that contain it.
 
-use lapidary::network::simplex::tables::{
-    find_arrangement_1, find_arrangement_2, find_interface_2, find_interface_3,
-};
+use lapidary::network::simplex::tables::{find_arrangement_1, find_arrangement_2, find_interface_2, find_interface_3};
 use lapidary::network::simplex::{
     FaceSupport, Found, Kind, Scratch, SimplexComplex, View, arrangement_incremental, find_table, interface_incremental,
 };
@@ -96,7 +94,10 @@ fn measure(wanted: &[String], name: &str, kind: Kind, n: usize, mut value: impl 
 }
 
 pub fn main(wanted: &[String]) {
-    println!("{:<34}{:>9}{:>12}{:>12}{:>14}", "ns for one tetrahedron", "look-up", "polygons", "written out", "incremental");
+    println!(
+        "{:<34}{:>9}{:>12}{:>12}{:>14}",
+        "ns for one tetrahedron", "look-up", "polygons", "written out", "incremental"
+    );
     let functions = [(Kind::Arrangement, 1), (Kind::Arrangement, 2), (Kind::Interface, 2), (Kind::Interface, 3)];
     for (kind, n) in functions {
         let name = match kind {
