@@ -123,6 +123,8 @@ module lapidary
   integer(c_int32_t), parameter, public :: LAP_VERTEX_TRIANGLE = 2
   ! Inside the solid, on three planes. ids: plane, plane, plane
   integer(c_int32_t), parameter, public :: LAP_VERTEX_PLANES = 3
+  ! Where triangles of an arrangement meet. ids: three triangles; or one at an edge, one that it crosses, and -1
+  integer(c_int32_t), parameter, public :: LAP_VERTEX_TRIANGLES = 4
   ! A face that lies on a triangle of the input mesh.
   integer(c_int32_t), parameter, public :: LAP_SUPPORT_TRIANGLE = 0
   ! A face that lies on a plane.

@@ -129,6 +129,9 @@
 /* Inside the solid, on three planes. ids: plane, plane, plane */
 #define LAP_VERTEX_PLANES 3
 
+/* Where triangles of an arrangement meet. ids: three triangles; or one at an edge, one that it crosses, and -1 */
+#define LAP_VERTEX_TRIANGLES 4
+
 /* A face that lies on a triangle of the input mesh. */
 #define LAP_SUPPORT_TRIANGLE 0
 

@@ -1,5 +1,6 @@
 //! Lapidary partitions 3-D space exactly. See `docs/architecture.md` for the house and where to start reading.
 
+pub mod arrangement;
 pub mod base;
 pub mod capi;
 pub mod complex;

@@ -78,8 +78,10 @@ ids! {
     SetId,
     /// A polygon of a network.
     PolygonId,
-    /// A patch of a network: polygons connected across manifold edges.
+    /// A patch of a network or of an arrangement: polygons connected across manifold edges.
     PatchId,
+    /// An operand of an arrangement, by its place in the caller's list.
+    OperandId,
 }
 
 /// For engines with elements of their own.

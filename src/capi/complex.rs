@@ -16,6 +16,8 @@ pub const LAP_VERTEX_EDGE: i32 = 1;
 pub const LAP_VERTEX_TRIANGLE: i32 = 2;
 /// Inside the solid, on three planes. ids: plane, plane, plane
 pub const LAP_VERTEX_PLANES: i32 = 3;
+/// Where triangles of an arrangement meet. ids: three triangles; or one at an edge, one that it crosses, and -1
+pub const LAP_VERTEX_TRIANGLES: i32 = 4;
 
 /// A face that lies on a triangle of the input mesh.
 pub const LAP_SUPPORT_TRIANGLE: i32 = 0;
@@ -151,6 +153,7 @@ pub unsafe extern "C" fn lap_complex_vertex_origins(
 
 fn origins(c: &Complex) -> (Vec<i32>, Vec<[i32; 3]>) {
     let source = |v: crate::base::VertexId| c.mesh.vertex_source[v.at()] as i32;
+    let first = |e: crate::base::EdgeId| c.mesh.edge_uses.row(e).first().map_or(-1, |u| u.triangle.0 as i32);
     let number = |origin: &Origin| match *origin {
         Origin::Mesh(v) => (LAP_VERTEX_MESH, [source(v), -1, -1]),
         Origin::Edge(e, p) => {
@@ -159,6 +162,10 @@ fn origins(c: &Complex) -> (Vec<i32>, Vec<[i32; 3]>) {
         }
         Origin::Triangle(t, p, q) => (LAP_VERTEX_TRIANGLE, [t.0 as i32, p.0 as i32, q.0 as i32]),
         Origin::Planes(p, q, r) => (LAP_VERTEX_PLANES, [p.0 as i32, q.0 as i32, r.0 as i32]),
+        // Named by the lowest triangle at each edge.
+        Origin::EdgeTriangle(e, t) => (LAP_VERTEX_TRIANGLES, [first(e), t.0 as i32, -1]),
+        Origin::Edges(e, f) => (LAP_VERTEX_TRIANGLES, [first(e), first(f), -1]),
+        Origin::Triangles(t, u, v) => (LAP_VERTEX_TRIANGLES, [t.0 as i32, u.0 as i32, v.0 as i32]),
     };
     c.origins.iter().map(number).unzip()
 }

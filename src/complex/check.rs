@@ -100,6 +100,9 @@ fn vertices(c: &Complex) -> Check {
             Origin::Edge(e, p) => e.at() < m.edges.len() && on(p),
             Origin::Triangle(t, p, q) => t.at() < m.triangles.len() && p < q && on(p) && on(q),
             Origin::Planes(p, q, r) => p < q && q < r && on(p) && on(q) && on(r),
+            Origin::EdgeTriangle(e, t) => e.at() < m.edges.len() && t.at() < m.triangles.len(),
+            Origin::Edges(e, f) => e < f && f.at() < m.edges.len(),
+            Origin::Triangles(t, u, v) => t < u && u < v && v.at() < m.triangles.len(),
         };
         ensure(good, || format!("vertex {v}: its origin {:?} does not fit", c.origins[v]))?;
         let plain = |x: &f64| !x.is_nan() && (*x != 0.0 || x.is_sign_positive());
@@ -234,6 +237,9 @@ fn on_triangle(c: &Complex, o: Origin, t: TriangleId) -> bool {
         Origin::Edge(e, _) => m.triangle_edges[t.at()].contains(&e),
         Origin::Triangle(s, _, _) => s == t,
         Origin::Planes(..) => false,
+        Origin::EdgeTriangle(e, s) => s == t || m.triangle_edges[t.at()].contains(&e),
+        Origin::Edges(e, f) => m.triangle_edges[t.at()].iter().any(|&k| k == e || k == f),
+        Origin::Triangles(a, b, d) => a == t || b == t || d == t,
     }
 }
 

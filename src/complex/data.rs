@@ -1,8 +1,8 @@
 //! The polyhedral complex as plain flat arrays (DESIGN §7).
 
 use crate::base::{CellId, ComponentId, Csr, EdgeId, FaceId, LoopId, PlaneId, TriangleId, VertexId};
-use crate::exact::{Plane, Point};
-use crate::mesh::TriMesh;
+use crate::exact::{self, Plane, Point};
+use crate::mesh::{self, TriMesh};
 use std::sync::Arc;
 
 /// What a vertex is, symbolically: the lowest-dimensional carrier that holds it, and the planes that fix it there.
@@ -16,6 +16,12 @@ pub enum Origin {
     Triangle(TriangleId, PlaneId, PlaneId),
     /// Inside the solid, on three planes (the lexicographically first independent triple).
     Planes(PlaneId, PlaneId, PlaneId),
+    /// Where a mesh edge crosses the plane of a triangle (arrangements).
+    EdgeTriangle(EdgeId, TriangleId),
+    /// Where two mesh edges of one plane cross.
+    Edges(EdgeId, EdgeId),
+    /// Where the planes of three triangles meet.
+    Triangles(TriangleId, TriangleId, TriangleId),
 }
 
 /// What a face lies on.
@@ -137,5 +143,30 @@ pub fn origin_point(mesh: &TriMesh, planes: &[Plane], origin: Origin) -> Point {
         }
         Origin::Triangle(t, p, q) => Point::TrianglePlanes { t: mesh.corners(t), p: planes[p.at()], q: planes[q.at()] },
         Origin::Planes(p, q, r) => Point::Planes { p: planes[p.at()], q: planes[q.at()], r: planes[r.at()] },
+        Origin::EdgeTriangle(e, t) => {
+            let [a, b] = mesh.edges[e.at()].map(|v| mesh.vertices[v.at()]);
+            Point::EdgeTriangle { a, b, t: mesh.corners(t) }
+        }
+        Origin::Edges(e, f) => {
+            let [[a, b], [c, d]] = [e, f].map(|e| mesh.edges[e.at()].map(|v| mesh.vertices[v.at()]));
+            Point::Edges { a, b, c, d, axis: crossing_axis(&[a, b], &[c, d]) }
+        }
+        Origin::Triangles(t, u, v) => Point::Supports([t, u, v].map(|t| exact::Support::Triangle(mesh.corners(t)))),
+    }
+}
+
+/// An axis along which two edges of one plane that cross are seen to cross: one along which two of their four ends and a third one
+/// are no line. Of a line and two points on either side of it, both do.
+pub fn crossing_axis([a, b]: &[[f64; 3]; 2], [c, _]: &[[f64; 3]; 2]) -> usize {
+    mesh::projection::open_axis(&[*a, *b, *c]).0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn origins_are_small() {
+        assert_eq!(size_of::<Origin>(), 16);
     }
 }

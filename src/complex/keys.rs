@@ -116,6 +116,10 @@ const ACROSS: u32 = 56;
 /// Added to `LINE`: the start is a plane (after the kinds of mesh elements: three corners, three sides, a triangle).
 const BY_PLANE: u32 = 7;
 const BY_END: u32 = 2;
+// Vertices made of triangles and edges. Three sides each.
+const PIERCED: u32 = 96;
+const CROSSED: u32 = 100;
+const THREE: u32 = 110;
 
 /// A tag below 128 and three ids.
 #[inline(always)]
@@ -229,6 +233,8 @@ impl Names<'_> {
             Origin::Mesh(v) => Some(self.vertex(v)).map(|(id, k)| (id, CORNER + k)),
             Origin::Edge(e, _) => Some(self.edge(e)).map(|(id, k)| (id, ON_SIDE + k)),
             Origin::Triangle(t, _, _) => Some((self.triangle(t), INSIDE)),
+            Origin::EdgeTriangle(e, _) | Origin::Edges(e, _) => Some(self.edge(e)).map(|(id, k)| (id, ON_SIDE + k)),
+            Origin::Triangles(t, ..) => Some((self.triangle(t), INSIDE)),
             Origin::Planes(..) => None,
         }
     }
@@ -248,7 +254,31 @@ pub fn vertex_key<S: AsRef<[PlaneId]>>(names: &Names, vertex: &Corner<S>) -> Key
         }
         Origin::Triangle(t, p, q) => pack(INSIDE, names.triangle(t), plane(p), plane(q)),
         Origin::Planes(p, q, r) => pack(MEET, plane(p), plane(q), plane(r)),
+        other => of_triangles(names, other),
     })
+}
+
+/// A vertex that is made of triangles and edges alone: of edges the lower name first, of triangles rising names.
+fn of_triangles(names: &Names, origin: Origin) -> u128 {
+    match origin {
+        Origin::EdgeTriangle(e, t) => {
+            let (id, side) = names.edge(e);
+            pack(PIERCED + side, id, names.triangle(t), 0)
+        }
+        Origin::Edges(e, f) => {
+            let (a, b) = (names.edge(e), names.edge(f));
+            let ((a, of_a), (b, of_b)) = (a.min(b), a.max(b));
+            pack(CROSSED + 3 * of_a + of_b, a, b, 0)
+        }
+        Origin::Triangles(t, u, v) => {
+            let mut ids = [t, u, v].map(|t| names.triangle(t));
+            ids.sort_unstable();
+            pack(THREE, ids[0], ids[1], ids[2])
+        }
+        Origin::Mesh(_) | Origin::Edge(..) | Origin::Triangle(..) | Origin::Planes(..) => {
+            unreachable!("the caller's match has those with planes")
+        }
+    }
 }
 
 fn mesh_vertex(names: &Names, v: VertexId) -> u128 {
@@ -296,6 +326,7 @@ fn reordered_vertex_key(names: &Names, origin: Origin, planes: &[PlaneId]) -> Ke
             });
             pack(MEET, name(first, p), name(second, q), name(third, r))
         }
+        other => of_triangles(names, other),
     })
 }
 

@@ -15,12 +15,13 @@
 // An axis indexes several arrays at once.
 #![allow(clippy::needless_range_loop)]
 
-use super::certified::{Certified, Vector, cross, dot, minus};
-use super::data::{Complex, HalfFace, Origin, SupportId};
+use super::certified::{Certified, Vector, cross, dot, minor, minus};
+use super::data::{Complex, HalfFace, Origin, SupportId, crossing_axis};
 use super::exact_values;
 use super::projection::{Projection, projection};
 use crate::base::{CellId, FaceId, VertexId};
 use crate::exact::{Plane, round_rational};
+use crate::mesh::projection::seen_along;
 use rayon::prelude::*;
 
 /// See [`moments`]. A flag of 1 means that a value of that cell or face lies beyond double range: it is infinite, or zero
@@ -141,13 +142,7 @@ fn position(c: &Complex, v: VertexId) -> Vector {
             fix(&mut known, &[a, b]);
             if known.contains(&None) {
                 let p = &c.planes[p.at()];
-                let from = value(p, &a);
-                let t = from / (from - value(p, &b));
-                for i in 0..3 {
-                    if known[i].is_none() {
-                        rest[i] = Certified::exactly(a[i]) + t * Certified::difference(b[i], a[i]);
-                    }
-                }
+                along(&mut rest, &known, [a, b], [value(p, &a), value(p, &b)]);
             }
         }
         Origin::Triangle(t, p, q) => {
@@ -169,6 +164,55 @@ fn position(c: &Complex, v: VertexId) -> Vector {
                 }
             }
         }
+        Origin::EdgeTriangle(e, t) => {
+            let [a, b] = c.mesh.edges[e.at()].map(|m| c.mesh.vertices[m.at()]);
+            fix(&mut known, &[a, b]);
+            let corners = c.mesh.corners(t);
+            fix(&mut known, &corners);
+            if known.contains(&None) {
+                let to =
+                    |p: [f64; 3]| -> Vector { std::array::from_fn(|i| Certified::difference(p[i], corners[0][i])) };
+                let n = cross(&to(corners[1]), &to(corners[2]));
+                along(&mut rest, &known, [a, b], [dot(&n, &to(a)), dot(&n, &to(b))]);
+            }
+        }
+        Origin::Edges(e, f) => {
+            let [a, b] = c.mesh.edges[e.at()].map(|m| c.mesh.vertices[m.at()]);
+            let [p, q] = c.mesh.edges[f.at()].map(|m| c.mesh.vertices[m.at()]);
+            fix(&mut known, &[a, b]);
+            fix(&mut known, &[p, q]);
+            if known.contains(&None) {
+                let axis = crossing_axis(&[a, b], &[p, q]);
+                let (u, v) = seen_along(axis);
+                let turn = |x: [f64; 3]| {
+                    let from = |y: [f64; 3], i: usize| Certified::difference(y[i], p[i]);
+                    minor(from(q, u), from(q, v), from(x, u), from(x, v))
+                };
+                along(&mut rest, &known, [a, b], [turn(a), turn(b)]);
+            }
+        }
+        Origin::Triangles(t, u, v) => {
+            let all = [t, u, v].map(|t| c.mesh.corners(t));
+            all.iter().for_each(|t| fix(&mut known, t));
+            if known.contains(&None) {
+                // Relative to a corner of the first.
+                let o = all[0][0];
+                let [a, b, d] = all.map(|t| {
+                    let to = |p: [f64; 3]| -> Vector { std::array::from_fn(|i| Certified::difference(p[i], t[0][i])) };
+                    cross(&to(t[1]), &to(t[2]))
+                });
+                let from =
+                    |t: &[[f64; 3]; 3]| -> Vector { std::array::from_fn(|i| Certified::difference(t[0][i], o[i])) };
+                let [y, z] = [dot(&b, &from(&all[1])), dot(&d, &from(&all[2]))];
+                let (ab, bd, da) = (cross(&a, &b), cross(&b, &d), cross(&d, &a));
+                let det = dot(&a, &bd);
+                for i in 0..3 {
+                    if known[i].is_none() {
+                        rest[i] = Certified::exactly(o[i]) + (y * da[i] + z * ab[i]) / det;
+                    }
+                }
+            }
+        }
         Origin::Planes(p, q, r) => {
             if known.contains(&None) {
                 let planes = [p, q, r].map(|p| &c.planes[p.at()]);
@@ -185,6 +229,16 @@ fn position(c: &Complex, v: VertexId) -> Vector {
         }
     }
     std::array::from_fn(|i| known[i].unwrap_or(rest[i]))
+}
+
+/// The point between a and b where what has these values there vanishes; coordinates that are not known yet.
+fn along(rest: &mut Vector, known: &[Option<Certified>; 3], [a, b]: [[f64; 3]; 2], [from, to]: [Certified; 2]) {
+    let t = from / (from - to);
+    for i in 0..3 {
+        if known[i].is_none() {
+            rest[i] = Certified::exactly(a[i]) + t * Certified::difference(b[i], a[i]);
+        }
+    }
 }
 
 /// The normal of a face's support, in double-doubles.

@@ -6,7 +6,7 @@
 //! where the caller's carriers do not meet in one point.
 
 use super::interpolate;
-use super::ring::{Kernel, Ring, cross, difference, dot, plane_value};
+use super::ring::{Kernel, Ring, cross, difference, dot, minor, plane_value};
 use super::types::{Plane, Point, Support};
 
 /// A support's linear function: n.x + d, or n.(x - a) for a triangle with corner a (no product of n and a is formed
@@ -102,6 +102,19 @@ pub fn shape<K: Kernel>(k: &K, x: &Point) -> Shape<K::N> {
         Point::Vertex(v) => Shape::One(k.point(v)),
         Point::EdgePlane { a, b, p } => on_edge(a, b, Form::Plane(k.plane(p))),
         Point::EdgeTriangle { a, b, t } => on_edge(a, b, triangle_form(k, t)),
+        Point::Edges { a, b, c, d, axis } => {
+            let ends = [k.point(a), k.point(b)];
+            let (c, d) = (k.point(c), k.point(d));
+            let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+            let along = difference(&d, &c);
+            // The turn of an end about c seen from d: falls along ab as a plane's value does.
+            let turn = |x: &[K::N; 3]| {
+                let to = difference(x, &c);
+                minor(&along[u], &along[v], &to[u], &to[v])
+            };
+            let w = [turn(&ends[1]).negated(), turn(&ends[0])];
+            Shape::Two(w, ends)
+        }
         Point::TrianglePlanes { t, p, q } => {
             let c = [k.point(&t[0]), k.point(&t[1]), k.point(&t[2])];
             let (p, q) = (k.plane(p), k.plane(q));
@@ -201,6 +214,7 @@ pub fn plain(x: &Point, axis: usize) -> Option<(f64, f64)> {
         Point::Vertex(v) => Some((v[axis], 1.0)),
         Point::EdgePlane { a, b, p } => on_edge(a, b).or_else(|| on_plane(p)),
         Point::EdgeTriangle { a, b, t } => on_edge(a, b).or_else(|| on_triangle(t)),
+        Point::Edges { a, b, c, d, .. } => on_edge(a, b).or_else(|| on_edge(c, d)),
         Point::TrianglePlanes { t, p, q } => on_triangle(t).or_else(|| on_plane(p)).or_else(|| on_plane(q)),
         Point::Planes { p, q, r } => on_plane(p).or_else(|| on_plane(q)).or_else(|| on_plane(r)),
         Point::Supports(s) => on_support(&s[0]).or_else(|| on_support(&s[1])).or_else(|| on_support(&s[2])),

@@ -132,8 +132,12 @@ fn lies_on(s: &Support, x: &Point) -> bool {
         (Support::Plane(s), Point::EdgePlane { p, .. }) => s == p,
         (Support::Plane(s), Point::TrianglePlanes { p, q, .. }) => s == p || s == q,
         (Support::Plane(s), Point::Planes { p, q, r }) => s == p || s == q || s == r,
-        (Support::Triangle(s), Point::EdgeTriangle { t, .. } | Point::TrianglePlanes { t, .. }) => s == t,
+        (Support::Triangle(s), Point::EdgeTriangle { a, b, t }) => s == t || (s.contains(a) && s.contains(b)),
+        (Support::Triangle(s), Point::TrianglePlanes { t, .. }) => s == t,
         (Support::Triangle(s), Point::EdgePlane { a, b, .. }) => s.contains(a) && s.contains(b),
+        (Support::Triangle(s), Point::Edges { a, b, c, d, .. }) => {
+            (s.contains(a) && s.contains(b)) || (s.contains(c) && s.contains(d))
+        }
         _ => false,
     }
 }

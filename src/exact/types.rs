@@ -29,6 +29,14 @@ pub enum Point {
         b: [f64; 3],
         t: [[f64; 3]; 3],
     },
+    /// Edges ab and cd of one plane, crossing. Seen along `axis` they cross, too.
+    Edges {
+        a: [f64; 3],
+        b: [f64; 3],
+        c: [f64; 3],
+        d: [f64; 3],
+        axis: usize,
+    },
     TrianglePlanes {
         t: [[f64; 3]; 3],
         p: Plane,
