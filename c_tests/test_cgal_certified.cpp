@@ -4,19 +4,16 @@
  *    several vertices at one place, pairs that touch there and nowhere else are not counted: CGAL cannot know that they are one
  *    vertex.
  * 2. All triangles of all faces: no two whose boxes meet have more in common than the vertices that they share by index, by
- *    CGAL's exact triangle test (and exact intersection, for those that share some).
+ *    CGAL's exact tests of triangles, and of triangles and segments.
  * 3. Every cell has a positive volume, exactly.
  *
- * Nearly all pairs are neighbours, or coplanar, for which CGAL's tests need rationals: `triangle_pairs.hpp` proves most of them 
- * harmless by signs alone, in 1 and in 2, and CGAL's tests are asked about what it leaves open, about every 256th pair that it
- * decides, and in small cuts about all pairs.
+ * All predicates are CGAL's, exact, and asked about every pair of boxes that meet.
  *
- * Over models of CGAL's data set (few and small ones; all, and more plane sets, with LAPIDARY_LONG: ten minutes), and made-up
- * solids. LAPIDARY_PART=i/n, i from 0, takes every n-th model only, for several processes at once.
+ * Over models of CGAL's data set (few and small ones; all, and more plane sets, with LAPIDARY_LONG), and made-up solids.
+ * LAPIDARY_PART=i/n, i from 0, takes every n-th model only, for several processes at once.
  */
 #include "check.h"
 #include "fixture.hpp"
-#include "triangle_pairs.hpp"
 #include "../examples/reader.hpp"
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
@@ -73,71 +70,38 @@ bool only_shared(const Triangles &all, const Corners &a, const Corners &b)
     return false;
 }
 
-/* Pairs that the filter decided, how many of them CGAL's tests were asked about as well, and those that it left open. */
-struct Asked {
-    std::int64_t decided = 0, audited = 0, open = 0;
-    /* Every which pair is audited. */
-    std::int64_t every = 256;
-};
-Asked asked;
+/* Pairs that CGAL's tests were asked about. */
+std::int64_t asked = 0;
 
-/* What `slow` says, where `apart` (which is a proof) does not hold. */
-template <class Slow> bool meets(bool apart, const Slow &slow)
-{
-    if (!apart) {
-        ++asked.open;
-        return slow();
-    }
-    if (++asked.decided % asked.every != 0) return false;
-    ++asked.audited;
-    const bool contradicted = slow();
-    CHECK(!contradicted);
-    return contradicted;
-}
-
+/* Whether two triangles have more in common than the vertices that they share by index, by CGAL's predicates alone. Sharing a corner, they
+   meet elsewhere only if the edge opposite to it in one of them meets the other; sharing an edge, only if they are in one plane,
+   folded onto each other. */
 bool meet_wrongly(const Triangles &all, const Corners &a, const Corners &b)
 {
-    pairs::Piece p, q;
-    for (const std::int32_t v : a) {
-        if (std::find(b.begin(), b.end(), v) != b.end()) p.at[p.size++] = q.at[q.size++] = all.xyz[v];
-    }
-    const int shared = p.size;
-    for (const std::int32_t v : a) {
-        if (std::find(b.begin(), b.end(), v) == b.end()) p.at[p.size++] = all.xyz[v];
-    }
-    for (const std::int32_t v : b) {
-        if (std::find(a.begin(), a.end(), v) == a.end()) q.at[q.size++] = all.xyz[v];
-    }
-    return meets(shared < 3 && pairs::apart(p, q, shared), [&] {
-        return shared == 0 ? CGAL::do_intersect(all.triangle<Kernel>(a), all.triangle<Kernel>(b)) : !only_shared(all, a, b);
-    });
-}
-
-/* CGAL's kernel with the filter before the tests that its search for self-intersections asks. */
-struct Filtered : Kernel {
-    struct Do_intersect_3 {
-        using Coordinates = std::array<std::array<double, 3>, 3>;
-
-        static pairs::Piece piece(const Kernel::Triangle_3 &t, Coordinates &xyz)
-        {
-            for (int k = 0; k < 3; ++k) xyz[k] = {t[k].x(), t[k].y(), t[k].z()};
-            return {{xyz[0].data(), xyz[1].data(), xyz[2].data()}, 3};
-        }
-        bool operator()(const Kernel::Triangle_3 &a, const Kernel::Triangle_3 &b) const
-        {
-            Coordinates p, q;
-            return meets(pairs::apart(piece(a, p), piece(b, q), 0), [&] { return CGAL::do_intersect(a, b); });
-        }
-        bool operator()(const Kernel::Triangle_3 &a, const Kernel::Segment_3 &s) const
-        {
-            Coordinates p;
-            const double source[3] = {s.source().x(), s.source().y(), s.source().z()};
-            const double target[3] = {s.target().x(), s.target().y(), s.target().z()};
-            return meets(pairs::apart(piece(a, p), source, target), [&] { return CGAL::do_intersect(a, s); });
-        }
+    ++asked;
+    const auto is_in = [](const Corners &t, std::int32_t v) { return std::find(t.begin(), t.end(), v) != t.end(); };
+    const auto shared = std::count_if(a.begin(), a.end(), [&](std::int32_t v) { return is_in(b, v); });
+    if (shared == 0) return CGAL::do_intersect(all.triangle<Kernel>(a), all.triangle<Kernel>(b));
+    if (shared == 3) return true;
+    /* Corners of `t`, those shared with `other` (or those that are not) first, in the order of their ids. */
+    const auto sorted = [&](Corners t, const Corners &other, bool shared_first) {
+        std::sort(t.begin(), t.end(), [&](std::int32_t v, std::int32_t w) {
+            return std::make_pair(is_in(other, v) != shared_first, v) < std::make_pair(is_in(other, w) != shared_first, w);
+        });
+        return t;
     };
-    Do_intersect_3 do_intersect_3_object() const { return {}; }
-};
+    if (shared == 1) {
+        const auto opposite = [&](const Corners &t, const Corners &other) {
+            const Corners s = sorted(t, other, false);
+            return Kernel::Segment_3(all.point<Kernel>(s[0]), all.point<Kernel>(s[1]));
+        };
+        return CGAL::do_intersect(all.triangle<Kernel>(a), opposite(b, a)) ||
+               CGAL::do_intersect(all.triangle<Kernel>(b), opposite(a, b));
+    }
+    const Corners s = sorted(a, b, true), t = sorted(b, a, true);
+    const auto p = all.point<Kernel>(s[0]), q = all.point<Kernel>(s[1]), r = all.point<Kernel>(s[2]), o = all.point<Kernel>(t[2]);
+    return CGAL::orientation(p, q, r, o) == CGAL::COPLANAR && CGAL::coplanar_orientation(p, q, r, o) == CGAL::POSITIVE;
+}
 
 /* All distinct triangles, by boxes: how many are degenerate, and how many pairs meet wrongly. */
 std::int64_t check_boxes(const Triangles &all)
@@ -205,10 +169,10 @@ std::int64_t check_cell(const Triangles &all, const std::vector<Corners> &walls)
     std::vector<std::int32_t> unique = source;
     std::sort(unique.begin(), unique.end());
     if (std::unique(unique.begin(), unique.end()) == unique.end()) {
-        return PMP::does_self_intersect(mesh, CGAL::parameters::geom_traits(Filtered())) ? 1 : 0;
+        return PMP::does_self_intersect(mesh) ? 1 : 0;
     }
     std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> found;
-    PMP::self_intersections(mesh, std::back_inserter(found), CGAL::parameters::geom_traits(Filtered()));
+    PMP::self_intersections(mesh, std::back_inserter(found));
     return std::count_if(found.begin(), found.end(), [&](const auto &p) {
         return meet_wrongly(all, walls[static_cast<std::size_t>(p.first)], walls[static_cast<std::size_t>(p.second)]);
     });
@@ -264,8 +228,7 @@ void run(const std::string &name, const std::string &kind, lapidary::context &co
     const auto t = certified.triangles();
     const Triangles all{certified.vertices(), t.vertices, t.cells};
     const double made = seconds();
-    asked = {};
-    if (all.corners.count < 1500) asked.every = 1;
+    asked = 0;
     const std::vector<std::vector<Corners>> walls = walls_of(all, certified.counts().cells);
     std::int64_t wrong_cells = 0, wrong_volumes = 0;
     for (const auto &cell : walls) {
@@ -279,8 +242,7 @@ void run(const std::string &name, const std::string &kind, lapidary::context &co
     CHECK(wrong_pairs == 0);
     std::cout << name << ' ' << kind << ": " << all.corners.count << " triangles, " << walls.size() << " cells, "
               << report.flat_before + report.contacts_before << " defects before, " << report.moved_vertices << " moved, "
-              << report.merged_vertices << " merged, " << report.removed_cells << " cells removed; " << asked.decided
-              << " pairs decided by signs, " << asked.audited << " of them asked again, " << asked.open << " left open; " << made
+              << report.merged_vertices << " merged, " << report.removed_cells << " cells removed; " << asked << " pairs; " << made
               << " s made, " << by_cells - made << " s cells, " << seconds() - by_cells << " s pairs"
               << (check_failures == before ? "" : ": FAILED") << std::endl;
 }
@@ -357,8 +319,6 @@ void finds_defects()
     const auto t = certified.triangles();
     const Triangles all{certified.vertices(), t.vertices, t.cells};
     CHECK(certified.report().certified == 0);
-    asked = {};
-    asked.every = 1;
     CHECK(check_boxes(all) > 0);
     std::int64_t wrong_cells = 0, wrong_volumes = 0;
     for (const auto &cell : walls_of(all, certified.counts().cells)) {
@@ -368,19 +328,16 @@ void finds_defects()
     CHECK(wrong_cells > 0 && wrong_volumes > 0);
 }
 
-/* The filter against CGAL's tests, on lattices so small that nearly everything is coplanar, collinear or touching somewhere; a
-   lattice of tenths is one of doubles that are nearly so. It may leave open what is apart, but on exact lattices that is never
-   needed. */
-void filter_is_right()
+/* The predicates against exact intersections, on lattices so small that nearly everything is coplanar, collinear or touching somewhere;
+   a lattice of tenths is one of doubles that are nearly so. */
+void predicates_are_right()
 {
     std::mt19937_64 random(5);
     std::array<double, 18> xyz;
-    const auto point = [&](std::size_t v) { return Kernel::Point_3(xyz[3 * v], xyz[3 * v + 1], xyz[3 * v + 2]); };
-    std::array<std::int64_t, 3> apart{}, meeting{}, open{};
+    std::array<std::int64_t, 3> apart{}, meeting{};
     for (int round = 0; round < 90000; ++round) {
         const std::int32_t shared = round % 3;
-        const bool exact = round % 2 == 0;
-        for (double &x : xyz) x = static_cast<double>(random() % 4) * (exact ? 1 : 0.1);
+        for (double &x : xyz) x = static_cast<double>(random() % 4) * (round % 2 == 0 ? 1 : 0.1);
         /* Planar ones as well, in a plane that is tilted. */
         if (round % 4 < 2) {
             for (std::size_t v = 0; v < 6; ++v) xyz[3 * v + 2] = xyz[3 * v] + xyz[3 * v + 1];
@@ -388,27 +345,13 @@ void filter_is_right()
         const Corners a{0, 1, 2}, b{shared > 0 ? 0 : 3, shared > 1 ? 1 : 4, 5};
         const Triangles all{{xyz.data(), 6}, {}, {}};
         if (all.triangle<Kernel>(a).is_degenerate() || all.triangle<Kernel>(b).is_degenerate()) continue;
-        const auto corner = [&](std::int32_t v) { return all.xyz[v]; };
-        const bool said = pairs::apart({{corner(a[0]), corner(a[1]), corner(a[2])}, 3},
-                                       {{corner(b[0]), corner(b[1]), corner(b[2])}, 3}, shared);
-        const auto kind = static_cast<std::size_t>(shared);
-        if (only_shared(all, a, b)) {
-            ++apart[kind];
-            open[kind] += !said;
-            CHECK(said || !exact);
-        } else {
-            ++meeting[kind];
-            CHECK(!said);
-        }
-        const bool clear = pairs::apart({{corner(0), corner(1), corner(2)}, 3}, corner(3), corner(4));
-        if (point(3) != point(4)) {
-            CHECK(!clear || !CGAL::do_intersect(all.triangle<Kernel>(a), Kernel::Segment_3(point(3), point(4))));
-        }
+        const bool meet = !only_shared(all, a, b);
+        CHECK(meet_wrongly(all, a, b) == meet && meet_wrongly(all, b, a) == meet);
+        ++(meet ? meeting : apart)[static_cast<std::size_t>(shared)];
     }
     for (std::size_t k = 0; k < 3; ++k) {
         CHECK(apart[k] > 1000 && meeting[k] > 1000);
-        std::cout << "filter, " << k << " shared: " << apart[k] << " apart, " << open[k] << " of them left open, " << meeting[k]
-                  << " meeting\n";
+        std::cout << "predicates, " << k << " shared: " << apart[k] << " apart, " << meeting[k] << " meeting\n";
     }
 }
 
@@ -418,7 +361,7 @@ int main()
 {
     const bool everything = std::getenv("LAPIDARY_LONG") != nullptr;
     finds_defects();
-    filter_is_right();
+    predicates_are_right();
     std::size_t part = 0, parts = 1;
     if (const char *asked_for = std::getenv("LAPIDARY_PART")) {
         const bool understood = std::sscanf(asked_for, "%zu/%zu", &part, &parts) == 2 && part < parts;

@@ -170,8 +170,22 @@ impl SharedUnionFind {
             roots
         }));
         let place = |i: usize| before[i / 64] as u32 + (bits[i / 64] & ((1 << (i % 64)) - 1)).count_ones();
-        let label_of = |i: usize| if counts(i) { place(self.find(i)) } else { u32::MAX };
-        let of = (0..n).into_par_iter().with_min_len(LEAST).map(label_of).collect();
+        // Within a part as on one thread: a parent's label is there already. Parents in earlier parts lead to their roots.
+        let mut of = vec![0u32; n];
+        let part = n.div_ceil(4 * rayon::current_num_threads()).max(LEAST);
+        of.par_chunks_mut(part).enumerate().for_each(|(p, of)| {
+            let start = p * part;
+            for i in 0..of.len() {
+                let up = self.parent[start + i].load(Ordering::Relaxed) as usize;
+                of[i] = if up >= start && up < start + i {
+                    of[up - start]
+                } else if up == start + i {
+                    if counts(up) { place(up) } else { u32::MAX }
+                } else {
+                    place(self.find(up))
+                };
+            }
+        });
         (of, roots)
     }
 }

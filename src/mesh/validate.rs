@@ -69,14 +69,15 @@ pub fn duplicates(vertices: &[[f64; 3]], counts: impl Fn(u32) -> bool + Sync) ->
     map_ranges(vertices.len(), LEAST, |range| {
         for v in range.map(|v| v as u32).filter(|&v| counts(v)) {
             let (word, bit) = place(v);
-            let before = if alone {
+            let was_marked = if alone {
                 let before = marked[word].load(Ordering::Relaxed);
                 marked[word].store(before | bit, Ordering::Relaxed);
-                before
+                before & bit != 0
             } else {
-                marked[word].fetch_or(bit, Ordering::Relaxed)
+                // (In one expression it is one locked instruction, else a loop of them.)
+                marked[word].fetch_or(bit, Ordering::Relaxed) & bit != 0
             };
-            if before & bit != 0 {
+            if was_marked {
                 again[word].fetch_or(bit, Ordering::Relaxed);
             }
         }
