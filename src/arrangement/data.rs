@@ -4,7 +4,9 @@
 //! the same point. Triangles and edges are those of the soup: all operands behind one another.
 
 use crate::base::{CellId, Csr, EdgeId, FaceId, OperandId, PatchId, TriangleId, VertexId};
+use crate::complex::data::origin_point;
 use crate::complex::{HalfFace, Origin};
+use crate::exact::Point;
 use crate::mesh::TriMesh;
 use std::sync::Arc;
 
@@ -122,6 +124,27 @@ pub struct Resolved {
     pub births: Csr<Birth>,
     /// Pairs of triangles that meet outside what they share by index.
     pub pair_count: u64,
+}
+
+impl Resolved {
+    /// Input positions, then constructed points.
+    pub fn vertex_count(&self) -> usize {
+        self.soup.mesh.vertices.len() + self.points.origins.len()
+    }
+    /// Correctly rounded coordinates of a vertex.
+    #[inline(always)]
+    pub fn coords(&self, v: VertexId) -> [f64; 3] {
+        let input = &self.soup.mesh.vertices;
+        if v.at() < input.len() { input[v.at()] } else { self.points.coords[v.at() - input.len()] }
+    }
+    pub fn origin(&self, v: VertexId) -> Origin {
+        let input = self.soup.mesh.vertices.len();
+        if v.at() < input { Origin::Mesh(v) } else { self.points.origins[v.at() - input] }
+    }
+    /// The exact, symbolic point of a vertex.
+    pub fn point(&self, v: VertexId) -> Point {
+        origin_point(&self.soup.mesh, &[], self.origin(v))
+    }
 }
 
 /// Net multiplicity of a face, or a winding number, per operand: pairs with rising operands, zeros left out.

@@ -5,5 +5,75 @@
 //! `cells` (with `nesting`) → `winding` → `extract`.
 
 pub mod data;
+pub mod extract;
+pub mod volumes;
 
 pub use data::*;
+pub use extract::{Extraction, Selection, choose, extract};
+
+use crate::base::{CellId, Error, FaceId, Result, Run, Status, VertexId};
+use crate::complex::{HalfFace, Origin};
+use crate::exact::Point;
+
+/// Nothing to choose yet.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ArrangementOptions {}
+
+/// The cells into which meshes divide space.
+#[derive(Clone, Debug, Default)]
+pub struct Arrangement {
+    pub resolved: Resolved,
+    pub cells: Cells,
+    pub winding: Winding,
+    /// Seconds per stage, in order.
+    pub stages: Vec<(&'static str, f64)>,
+}
+
+impl Arrangement {
+    pub fn operand_count(&self) -> usize {
+        self.resolved.soup.operand_count()
+    }
+    /// Input positions, then constructed points; not all of them are corners of faces.
+    pub fn vertex_count(&self) -> usize {
+        self.resolved.vertex_count()
+    }
+    pub fn face_count(&self) -> usize {
+        self.resolved.faces.len()
+    }
+    pub fn patch_count(&self) -> usize {
+        self.cells.patch_face.len()
+    }
+    /// The unbounded cell, number 0, included.
+    pub fn cell_count(&self) -> usize {
+        self.cells.cell_count
+    }
+    /// Correctly rounded coordinates.
+    pub fn coords(&self, v: VertexId) -> [f64; 3] {
+        self.resolved.coords(v)
+    }
+    pub fn origin(&self, v: VertexId) -> Origin {
+        self.resolved.origin(v)
+    }
+    /// The exact, symbolic point of a vertex.
+    pub fn point(&self, v: VertexId) -> Point {
+        self.resolved.point(v)
+    }
+    /// The cells behind a face and before it; `NONE` for a face that divides nothing.
+    pub fn face_cells(&self, f: FaceId) -> [CellId; 2] {
+        [false, true].map(|front| self.cells.of[HalfFace::new(f, front).at()])
+    }
+    /// The winding numbers of a cell that are not zero, by operand.
+    pub fn winding(&self, c: CellId) -> &[Multiplicity] {
+        self.winding.rows.row(c)
+    }
+}
+
+/// Finds the cells into which the operands divide space. Runs on the current rayon pool; the result does not depend on its size.
+///
+/// Errors: `BadMesh` with every coordinate that is not finite, every index out of range, every edge of an operand that does not balance
+/// (the message names the operand); `TooLarge`; `Cancelled`.
+pub fn arrange(operands: &[Operand], _options: &ArrangementOptions, run: &mut Run) -> Result<Arrangement> {
+    let _ = operands;
+    run.stage("soup", 0.0)?;
+    Err(Error::new(Status::Internal, "arrangements: the stages are not there yet"))
+}

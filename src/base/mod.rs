@@ -1,9 +1,10 @@
-//! The ground under the floors: typed ids, flat CSR arrays, errors with named culprits, and the run control
+//! The ground under the floors: typed ids, flat CSR arrays, errors with named culprits, boolean expressions as text, and the run control
 //! (progress, cancel, log) that every engine takes.
 
 pub mod blocks;
 pub mod csr;
 pub mod error;
+pub mod expression;
 pub mod ids;
 pub mod parallel;
 pub mod processor;

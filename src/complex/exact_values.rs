@@ -137,7 +137,7 @@ fn uncut(c: &Complex, f: FaceId) -> Option<[[f64; 3]; 3]> {
 }
 
 /// The lowest exponent of two in any of these numbers.
-pub(super) fn lowest_exponent(numbers: impl Iterator<Item = f64>) -> i32 {
+pub(crate) fn lowest_exponent(numbers: impl Iterator<Item = f64>) -> i32 {
     numbers.filter(|&x| x != 0.0).map(|x| lift::split(x).1).min().unwrap_or(0)
 }
 
@@ -151,7 +151,7 @@ fn scaled(x: f64, exponent: i32) -> Integer {
 }
 
 /// Six times the signed volume of the cone from the origin over a triangle, with coordinates in units of 2^exponent.
-pub(super) fn triangle_cone(t: &[[f64; 3]; 3], exponent: i32) -> Integer {
+pub(crate) fn triangle_cone(t: &[[f64; 3]; 3], exponent: i32) -> Integer {
     let [a, b, d] = t.map(|p| p.map(|x| scaled(x, exponent)));
     let minor = |i: usize, j: usize| Integer::from(&b[i] * &d[j]) - Integer::from(&b[j] * &d[i]);
     minor(1, 2) * &a[0] + minor(2, 0) * &a[1] + minor(0, 1) * &a[2]

@@ -5,13 +5,14 @@
 //! open; elsewhere it is closed: around every edge inside the domain chosen and other wedges alternate.
 //!
 //! Expressions are text: `(0 & !1) | 2`. A number is true where that function is positive (of an interface: where it is the material); `-k` where function k
-//! is negative, `=k` where it is zero; `!` not, `&` and, `^` one but not both, `|` or, in this order of strength; brackets; `true`, `false`.
+//! is negative, `=k` where it is zero; `!` not, `&` and, `a - b` and not, `^` one but not both, `|` or, in this order of strength; brackets; `true`, `false`.
 //!
 //! Cost: linear in the polygons; choosing, in regions times the expression.
 
 use super::data::Network;
 use super::simplex::Kind;
 use super::topology::Topology;
+use crate::base::expression::Expression;
 use crate::base::{Csr, Error, FunctionId, PolygonId, RegionId, Result, Status, VertexId};
 use crate::exact::Sign;
 
@@ -38,131 +39,29 @@ pub struct Boundary {
     pub flipped: Vec<bool>,
 }
 
-/// One step of an expression, in the order of evaluation.
+/// A function that has this sign (or is, or is not, the material).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Step {
-    Constant(bool),
-    /// The function has this sign (or is, or is not, the material).
-    Has(FunctionId, Sign),
-    Not,
-    And,
-    Xor,
-    Or,
-}
+pub struct Has(FunctionId, Sign);
 
-/// A boolean expression over the signs of functions.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Expression {
-    steps: Vec<Step>,
-}
-
-impl Expression {
-    /// Errors: `BadArgument` with the place of the first character that does not fit, or the number of a function that there is not.
-    pub fn parse(text: &str, function_count: usize) -> Result<Self> {
-        let mut steps = Vec::new();
-        // What waits for its right side: operators and opening brackets.
-        let mut waiting: Vec<u8> = Vec::new();
-        let bytes = text.as_bytes();
-        let wrong = |at: usize, what: &str| {
-            Error::new(Status::BadArgument, format!("expression, character {}: {what}", at + 1))
+/// Parses an expression over the signs of functions.
+///
+/// Errors: `BadArgument` with the place of the first character that does not fit, or the number of a function that there is not.
+pub fn parse(text: &str, function_count: usize) -> Result<Expression<Has>> {
+    Expression::parse(text, "a function", |rest| {
+        let sign = match rest.as_bytes().first() {
+            Some(b'-') => Sign::Negative,
+            Some(b'=') => Sign::Zero,
+            Some(b'0'..=b'9') => Sign::Positive,
+            _ => return Ok(None),
         };
-        let strength = |operator: u8| match operator {
-            b'!' => 4,
-            b'&' => 3,
-            b'^' => 2,
-            b'|' => 1,
-            _ => 0,
-        };
-        let step = |operator: u8| match operator {
-            b'!' => Step::Not,
-            b'&' => Step::And,
-            b'^' => Step::Xor,
-            _ => Step::Or,
-        };
-        let (mut at, mut complete) = (0, false);
-        while at < bytes.len() {
-            let c = bytes[at];
-            match c {
-                b' ' | b'\t' | b'\n' | b'\r' => at += 1,
-                b'!' | b'(' if !complete => {
-                    waiting.push(c);
-                    at += 1;
-                }
-                b'0'..=b'9' | b'-' | b'=' | b't' | b'f' if !complete => {
-                    let word = [("true", true), ("false", false)].into_iter().find(|(w, _)| text[at..].starts_with(w));
-                    if let Some((word, value)) = word {
-                        steps.push(Step::Constant(value));
-                        at += word.len();
-                    } else {
-                        let sign = match c {
-                            b'-' => Sign::Negative,
-                            b'=' => Sign::Zero,
-                            _ => Sign::Positive,
-                        };
-                        let start = at + (sign != Sign::Positive) as usize;
-                        let digits = bytes[start..].iter().take_while(|b| b.is_ascii_digit()).count();
-                        let number = text[start..start + digits].parse::<usize>();
-                        match number {
-                            Ok(f) if f < function_count => steps.push(Step::Has(FunctionId::of(f), sign)),
-                            Ok(_) => return Err(wrong(start, "there is no such function")),
-                            Err(_) => return Err(wrong(start, "a number of a function is expected")),
-                        }
-                        at = start + digits;
-                    }
-                    complete = true;
-                }
-                b'&' | b'^' | b'|' if complete => {
-                    while let Some(&top) = waiting.last().filter(|&&top| strength(top) >= strength(c)) {
-                        steps.push(step(top));
-                        waiting.pop();
-                    }
-                    waiting.push(c);
-                    complete = false;
-                    at += 1;
-                }
-                b')' if complete => {
-                    loop {
-                        match waiting.pop() {
-                            Some(b'(') => break,
-                            Some(top) => steps.push(step(top)),
-                            None => return Err(wrong(at, "a bracket that was not opened")),
-                        }
-                    }
-                    at += 1;
-                }
-                _ if complete => return Err(wrong(at, "an operator or the end is expected")),
-                _ => return Err(wrong(at, "a function, `!` or `(` is expected")),
-            }
+        let start = (sign != Sign::Positive) as usize;
+        let digits = rest[start..].bytes().take_while(u8::is_ascii_digit).count();
+        match rest[start..start + digits].parse::<usize>() {
+            Ok(f) if f < function_count => Ok(Some((Has(FunctionId::of(f), sign), start + digits))),
+            Err(_) if digits == 0 => Err((start, "a number of a function is expected")),
+            _ => Err((start, "there is no such function")),
         }
-        if !complete {
-            return Err(wrong(at, "the expression ends too early"));
-        }
-        while let Some(top) = waiting.pop() {
-            if top == b'(' {
-                return Err(wrong(at, "a bracket is not closed"));
-            }
-            steps.push(step(top));
-        }
-        Ok(Self { steps })
-    }
-
-    /// The value where functions have these signs. `stack`: working memory.
-    pub fn evaluate(&self, sign: impl Fn(FunctionId) -> Sign, stack: &mut Vec<bool>) -> bool {
-        stack.clear();
-        for step in &self.steps {
-            let mut pop = || stack.pop().expect("operands come before operators");
-            let value = match *step {
-                Step::Constant(value) => value,
-                Step::Has(f, wanted) => sign(f) == wanted,
-                Step::Not => !pop(),
-                Step::And => pop() & pop(),
-                Step::Xor => pop() ^ pop(),
-                Step::Or => pop() | pop(),
-            };
-            stack.push(value);
-        }
-        stack.pop().expect("one value")
-    }
+    })
 }
 
 /// Which regions a choice takes. Errors: `BadArgument` for a bad expression or a table of another length.
@@ -176,17 +75,17 @@ pub fn choose(network: &Network, topology: &Topology, choice: Choice) -> Result<
         }
         Choice::Callback(chosen) => Ok((0..regions.len()).map(|r| chosen(RegionId::of(r))).collect()),
         Choice::Expression(text) => {
-            let expression = Expression::parse(text, network.function_count)?;
+            let expression = parse(text, network.function_count)?;
             let mut stack = Vec::new();
             let value = |r: usize| match network.kind {
                 Kind::Arrangement => {
                     let signs = regions.signs_of(RegionId::of(r));
-                    expression.evaluate(|f| signs[f.at()], &mut stack)
+                    expression.evaluate(|Has(f, sign)| signs[f.at()] == sign, &mut stack)
                 }
                 Kind::Interface => {
                     let material = regions.materials[r];
                     let sign = |f: FunctionId| if f == material { Sign::Positive } else { Sign::Negative };
-                    expression.evaluate(sign, &mut stack)
+                    expression.evaluate(|Has(f, wanted)| sign(f) == wanted, &mut stack)
                 }
             };
             Ok((0..regions.len()).map(value).collect())
@@ -268,7 +167,7 @@ mod tests {
     fn expressions() {
         let value = |text: &str, signs: [i8; 3]| {
             let sign = |f: FunctionId| Sign::of(signs[f.at()] as f64);
-            Expression::parse(text, 3).unwrap().evaluate(sign, &mut Vec::new())
+            parse(text, 3).unwrap().evaluate(|Has(f, wanted)| sign(f) == wanted, &mut Vec::new())
         };
         for bits in 0..8 {
             let signs = [0, 1, 2].map(|k| if bits >> k & 1 == 1 { 1 } else { -1 });
@@ -280,13 +179,14 @@ mod tests {
             assert_eq!(value("-0 & (false | 2)", signs), !a & c);
         }
         assert!(value("=1 & !1 & !-1", [1, 0, 1]));
+        assert!(value("0 - 1 --2", [1, -1, 1]) && !value("0-1-2", [1, -1, 1]));
         for (text, place) in
             [("", 1), ("0 &", 4), ("0 1", 3), ("(0", 3), ("0)", 2), ("3", 1), ("x", 1), ("& 0", 1), ("-", 2), ("()", 2)]
         {
-            let error = Expression::parse(text, 3).unwrap_err();
+            let error = parse(text, 3).unwrap_err();
             assert!(error.message.starts_with(&format!("expression, character {place}:")), "{text}: {}", error.message);
         }
-        assert!(Expression::parse("é", 3).is_err());
-        assert!(Expression::parse(&"9".repeat(60), 3).is_err());
+        assert!(parse("é", 3).is_err());
+        assert!(parse(&"9".repeat(60), 3).is_err());
     }
 }
