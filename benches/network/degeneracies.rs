@@ -13,7 +13,7 @@ use lapidary::network::simplex::{
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// SplitMix64.
-struct Random(u64);
+pub struct Random(pub u64);
 
 impl Random {
     fn bits(&mut self) -> u64 {
@@ -24,7 +24,7 @@ impl Random {
         z ^ (z >> 31)
     }
     /// In [−1, 1), with all 53 bits.
-    fn signed(&mut self) -> f64 {
+    pub fn signed(&mut self) -> f64 {
         (self.bits() >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
     /// Values at the corners.
@@ -106,14 +106,14 @@ fn input(r: &mut Random, kind: Kind, shape: Shape) -> Vec<[f64; 4]> {
 }
 
 /// One or the other construction, with exact signs or with plain ones.
-struct Builder {
+pub struct Builder {
     plain: bool,
     scratch: Scratch,
     complex: SimplexComplex,
 }
 
 impl Builder {
-    fn new(plain: bool) -> Self {
+    pub fn new(plain: bool) -> Self {
         #[allow(unused_mut)]
         let mut scratch = Scratch::default();
         #[cfg(feature = "plain-signs")]
@@ -122,7 +122,7 @@ impl Builder {
     }
 
     /// The complex of functions in an order, in a form that does not depend on it; `None` if there is no complex.
-    fn structure(&mut self, kind: Kind, functions: &[[f64; 4]], order: &[usize]) -> Option<Structure> {
+    pub fn structure(&mut self, kind: Kind, functions: &[[f64; 4]], order: &[usize]) -> Option<Structure> {
         let values: Vec<f64> = order.iter().flat_map(|&f| functions[f]).collect();
         let made = catch_unwind(AssertUnwindSafe(|| {
             match kind {
@@ -162,7 +162,7 @@ fn closed(c: &SimplexComplex) -> bool {
 }
 
 /// Cells by label, with their faces: what each lies on, its corners' carriers, and the label beyond.
-type Structure = Vec<(Vec<i32>, Vec<(Vec<usize>, Vec<u8>, Vec<i32>)>)>;
+pub type Structure = Vec<(Vec<i32>, Vec<(Vec<usize>, Vec<u8>, Vec<i32>)>)>;
 
 fn structure(c: &SimplexComplex, order: &[usize]) -> Structure {
     // Functions by their numbers in the input.
@@ -212,6 +212,28 @@ fn structure(c: &SimplexComplex, order: &[usize]) -> Structure {
     cells
 }
 
+/// One input in two orders, by what came of each: 0 for success, 1 and 2 for failures of type I and II.
+pub fn outcome<T: PartialEq>(both: &[Option<T>; 2]) -> usize {
+    match both {
+        [Some(a), Some(b)] if a == b => 0,
+        [Some(_), Some(_)] => 1,
+        _ => 2,
+    }
+}
+
+/// Counts of [`outcome`] as a row of a table.
+pub fn print_row(what: &str, plain: bool, counts: [usize; 3]) {
+    let all: usize = counts.iter().sum();
+    let [success, one, two] = counts.map(|n| format!("{:.2} %", 100.0 * n as f64 / all as f64));
+    let signs = if plain { "doubles" } else { "exact" };
+    println!("| {what} | {signs} | {success} | {one} | {two} |");
+}
+
+/// With exact signs, and with plain ones where the build has them.
+pub fn variants() -> &'static [bool] {
+    if cfg!(feature = "plain-signs") { &[false, true] } else { &[false] }
+}
+
 /// Success, type I, type II.
 fn tally(kind: Kind, shape: Shape, plain: bool, count: usize) -> [usize; 3] {
     let mut builder = Builder::new(plain);
@@ -222,11 +244,7 @@ fn tally(kind: Kind, shape: Shape, plain: bool, count: usize) -> [usize; 3] {
         let forward: Vec<usize> = (0..functions.len()).collect();
         let backward: Vec<usize> = forward.iter().rev().copied().collect();
         let both = [forward, backward].map(|order| builder.structure(kind, &functions, &order));
-        counts[match &both {
-            [Some(a), Some(b)] if a == b => 0,
-            [Some(_), Some(_)] => 1,
-            _ => 2,
-        }] += 1;
+        counts[outcome(&both)] += 1;
     }
     counts
 }
@@ -235,17 +253,13 @@ pub fn main(arguments: &[String]) {
     let count = arguments.first().map_or(10_000, |n| n.parse().expect("a number of inputs"));
     // What gives up says so by a panic, thousands of times.
     std::panic::set_hook(Box::new(|_| ()));
-    let variants: &[bool] = if cfg!(feature = "plain-signs") { &[false, true] } else { &[false] };
     println!("| degeneracy | signs | success | type I | type II |\n|---|---|---:|---:|---:|");
     let mut consistent = true;
     for (kind, name) in [(Kind::Arrangement, "IA"), (Kind::Interface, "MI")] {
-        for &plain in variants {
+        for &plain in variants() {
             for (shape, what) in SHAPES {
                 let counts = tally(kind, shape, plain, count);
-                let percent = counts.map(|n| format!("{:.2} %", 100.0 * n as f64 / count as f64));
-                let [success, one, two] = &percent;
-                let signs = if plain { "doubles" } else { "exact" };
-                println!("| {name} {what} | {signs} | {success} | {one} | {two} |");
+                print_row(&format!("{name} {what}"), plain, counts);
                 consistent &= plain || counts[0] == count;
             }
         }

@@ -1,7 +1,7 @@
 //! Seconds per stage from node values to vertices and polygons, or on to regions, the minimum of repeats, and the peak memory of the process.
 
 #[path = "../../tests/common/functions.rs"]
-mod functions;
+pub mod functions;
 
 use lapidary::base::Run;
 use lapidary::base::blocks::Keeper;
