@@ -30,15 +30,6 @@ pub struct Soup {
     pub dropped: Vec<u32>,
 }
 
-impl Soup {
-    pub fn operand_count(&self) -> usize {
-        self.first_triangle.len() - 1
-    }
-    pub fn operand(&self, t: TriangleId) -> OperandId {
-        OperandId::of(self.first_triangle.partition_point(|&first| first <= t.0) - 1)
-    }
-}
-
 /// Constructed points, in the order of their ids, from `soup.mesh.vertices.len()` on.
 #[derive(Clone, Debug, Default)]
 pub struct Points {
@@ -97,7 +88,7 @@ pub struct Graphs {
     pub pieces: Csr<[VertexId; 2]>,
     /// Vertices on no piece, sorted, per cluster.
     pub lone: Csr<VertexId>,
-    /// The points in the interior of each split edge may have become more: as in [`Contacts`].
+    /// As in [`Contacts`].
     pub split_edges: Vec<EdgeId>,
     pub edge_points: Csr<VertexId>,
 }

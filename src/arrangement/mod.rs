@@ -1,11 +1,20 @@
 //! Arrangements of triangle meshes: the cells into which any number of meshes divide space, each with its winding-number vector; booleans are an
 //! extraction from it (the Mesh Arrangements paper, DESIGN §6).
 //!
-//! Stages in pipeline order: `soup` → `candidates` → `intersect` → `clusters` → `crossings` → `triangulate` → `resolve` → `patches` →
-//! `cells` (with `nesting`) → `winding` → `extract`.
+//! Stages in pipeline order: [`soup`] → [`intersect`] (with [`pair`], [`points`]) → [`clusters`] → [`crossings`] → [`triangulate`] →
+//! [`resolve`] → [`patches`] → [`cells`] (with [`nesting`]) → [`winding`] → [`extract`].
 
+pub mod clusters;
+pub mod crossings;
 pub mod data;
 pub mod extract;
+pub mod intersect;
+pub mod pair;
+pub mod planar;
+pub mod points;
+pub mod resolve;
+pub mod soup;
+pub mod triangulate;
 pub mod volumes;
 
 pub use data::*;

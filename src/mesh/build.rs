@@ -281,7 +281,8 @@ pub(super) fn signs(vertices: &[[f64; 3]], triangles: &[[VertexId; 3]], shells: 
     volume::volume_signs(vertices, triangles, &shells.of, shells.lowest.len())
 }
 
-pub(super) fn bounding_box(vertices: &[[f64; 3]]) -> [[f64; 3]; 2] {
+/// Lowest and highest corner; of no vertices, the origin.
+pub fn bounding_box(vertices: &[[f64; 3]]) -> [[f64; 3]; 2] {
     let wider = |[mut lo, mut hi]: [[f64; 3]; 2], x: &[f64; 3], y: &[f64; 3]| {
         for i in 0..3 {
             lo[i] = lo[i].min(x[i]);
