@@ -279,19 +279,6 @@ impl Resolved {
         several.unwrap_or_default().iter().copied().chain(one)
     }
 
-    pub fn vertex_count(&self) -> usize {
-        self.soup.mesh.vertices.len() + self.points.origins.len()
-    }
-
-    pub fn point(&self, v: VertexId) -> Point {
-        points::point(&self.soup.mesh, &self.points, v)
-    }
-
-    /// Rounded coordinates.
-    pub fn place(&self, v: VertexId) -> [f64; 3] {
-        points::place(&self.soup.mesh, &self.points, v)
-    }
-
     /// Faces have three corners and no two the same ones; corners are on the support; births rise.
     pub fn check(&self) -> std::result::Result<(), String> {
         self.points.check(&self.soup.mesh)?;
