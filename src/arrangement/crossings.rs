@@ -51,8 +51,11 @@ pub fn crossings(soup: &Soup, contacts: Contacts, clusters: &Clusters, run: &mut
         works.par_extend(chunk.into_par_iter().with_min_len(LEAST).map(work));
         run.tick("crossings", 0.35 + 0.1 * works.len() as f64 / count as f64)?;
     }
-    let mut origins: Vec<Origin> =
-        works.iter().flat_map(|w| &w.events).filter(|e| e.known.is_none()).map(|e| e.new).collect();
+    // Soup vertices that touch something may be where segments cross.
+    let touching = works.iter().flat_map(|w| &w.segments).flat_map(|s| s.ends).chain(contacts.edge_points.items.iter().copied());
+    let touching = touching.filter(|v| v.at() < mesh.vertices.len()).map(Origin::Mesh);
+    let new = works.iter().flat_map(|w| &w.events).filter(|e| e.known.is_none()).map(|e| e.new);
+    let mut origins: Vec<Origin> = touching.chain(new).collect();
     origins.par_sort_unstable();
     origins.dedup();
     let Contacts { points, split_edges, edge_points, .. } = contacts;

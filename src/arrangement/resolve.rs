@@ -141,7 +141,12 @@ fn parts(
     let local_pieces: Vec<[u32; 2]> = pieces.iter().map(|p| p.map(number)).collect();
     let plane = Plane::new(mesh, &graphs.points, members[0]);
     let (u, v) = seen_along(plane.axis);
-    let seen = |x: [f64; 3]| if plane.orientation == Sign::Negative { [x[v], x[u]] } else { [x[u], x[v]] };
+    // Near 1, so that squares are in range.
+    let scale = power_near(1.0 / mesh.bbox.iter().flatten().fold(f64::MIN_POSITIVE, |m, x| m.max(x.abs())));
+    let seen = |x: [f64; 3]| {
+        let [x, y] = if plane.orientation == Sign::Negative { [x[v], x[u]] } else { [x[u], x[v]] };
+        [x * scale, y * scale]
+    };
     let mut places: Vec<[f64; 2]> = vertices.iter().map(|&w| seen(plane.place(w))).collect();
     let count = vertices.len() as u32;
     let made: Triangulation;
@@ -156,7 +161,7 @@ fn parts(
         let as_point = |p: &[f64; 2]| {
             let mut x = [0.0; 3];
             let p = if plane.orientation == Sign::Negative { [p[1], p[0]] } else { *p };
-            (x[u], x[v]) = (p[0], p[1]);
+            (x[u], x[v]) = (p[0] / scale, p[1] / scale);
             x
         };
         let points = frame.iter().map(as_point).collect();
@@ -183,6 +188,11 @@ fn parts(
         }
     }
     Ok(parts)
+}
+
+/// The power of two below a positive number, or the least one in range.
+fn power_near(x: f64) -> f64 {
+    f64::from_bits(x.min(f64::MAX).to_bits() & !((1 << 52) - 1)).max(f64::MIN_POSITIVE)
 }
 
 /// Four corners strictly around all places, to the left.
