@@ -52,7 +52,8 @@ pub fn crossings(soup: &Soup, contacts: Contacts, clusters: &Clusters, run: &mut
         run.tick("crossings", 0.35 + 0.1 * works.len() as f64 / count as f64)?;
     }
     // Soup vertices that touch something may be where segments cross.
-    let touching = works.iter().flat_map(|w| &w.segments).flat_map(|s| s.ends).chain(contacts.edge_points.items.iter().copied());
+    let touching =
+        works.iter().flat_map(|w| &w.segments).flat_map(|s| s.ends).chain(contacts.edge_points.items.iter().copied());
     let touching = touching.filter(|v| v.at() < mesh.vertices.len()).map(Origin::Mesh);
     let new = works.iter().flat_map(|w| &w.events).filter(|e| e.known.is_none()).map(|e| e.new);
     let mut origins: Vec<Origin> = touching.chain(new).collect();
