@@ -362,6 +362,7 @@ fn layout() {
             }
             Origin::Triangle(t, p, q) => (6, [t.0.into(), p.0.into(), q.0.into()]),
             Origin::Planes(p, q, r) => (7, [p, q, r].map(|p| p.0.into())),
+            other => unreachable!("a cut's vertex {other:?}"),
         };
         assert_eq!((tag, ids), expected, "vertex {v}");
     }

@@ -302,6 +302,7 @@ fn exact_point(c: &Complex, v: usize) -> P {
             meet([&Flat::through(&c.mesh.corners(t).map(point)), &flat(p), &flat(q)]).expect("an independent pair")
         }
         Origin::Planes(p, q, r) => meet([&flat(p), &flat(q), &flat(r)]).expect("an independent triple"),
+        other => unreachable!("a cut's vertex {other:?}"),
     }
 }
 

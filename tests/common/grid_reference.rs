@@ -125,6 +125,7 @@ pub fn reference(mesh: Arc<TriMesh>, lattice: Lattice) -> Reference {
         Origin::Mesh(_) => 0,
         Origin::Edge(..) | Origin::Triangle(..) => 1,
         Origin::Planes(..) => 2,
+        other => unreachable!("a grid's vertex {other:?}"),
     };
     let mut order: Vec<usize> = (0..c.vertex_count()).filter(|&v| used[v]).collect();
     order.sort_by_key(|&v| (kind(v), v));

@@ -214,6 +214,14 @@ pub fn point(x: &Point) -> Option<Q3> {
         Point::Vertex(v) => Some(q3(v)),
         Point::EdgePlane { a, b, p } => on_edge(a, b, equation(&Support::Plane(*p))),
         Point::EdgeTriangle { a, b, t } => on_edge(a, b, equation(&Support::Triangle(*t))),
+        Point::Edges { a, b, c, d, axis } => {
+            // The plane through cd along the axis.
+            let mut up: Q3 = std::array::from_fn(|_| Q::new());
+            up[*axis] += 1;
+            let n = cross(&sub(&q3(d), &q3(c)), &up);
+            let h = dot(&n, &q3(c));
+            on_edge(a, b, (n, h))
+        }
         Point::TrianglePlanes { t, p, q } => {
             solve([equation(&Support::Triangle(*t)), equation(&Support::Plane(*p)), equation(&Support::Plane(*q))])
         }
@@ -247,10 +255,22 @@ pub fn support(r: &mut Random, kind: usize, near: &[f64; 3]) -> Support {
     }
 }
 
+/// Two edges in a plane that is perpendicular to an axis, or at 45 degrees to two.
+fn edges(r: &mut Random, kind: usize) -> Point {
+    let axis = r.below(3) as usize;
+    let height = if r.below(2) == 0 { Some(number(r, kind)) } else { None };
+    let [a, b, c, d] = std::array::from_fn(|_| {
+        let mut x = vector(r, kind);
+        x[axis] = height.unwrap_or(x[(axis + 1) % 3]);
+        x
+    });
+    Point::Edges { a, b, c, d, axis }
+}
+
 /// A symbolic point of any sort, with its exact coordinates.
 pub fn symbolic(r: &mut Random, kind: usize, near: &[f64; 3]) -> (Point, Q3) {
     loop {
-        let x = match r.below(6) {
+        let x = match r.below(7) {
             0 => Point::Vertex(vector(r, kind)),
             1 => Point::EdgePlane { a: vector(r, kind), b: vector(r, kind), p: plane(r, kind, near) },
             2 => {
@@ -261,7 +281,8 @@ pub fn symbolic(r: &mut Random, kind: usize, near: &[f64; 3]) -> (Point, Q3) {
                 Point::EdgeTriangle { a: vector(r, kind), b: vector(r, kind), t }
             }
             3 => Point::TrianglePlanes { t: triangle(r, kind), p: plane(r, kind, near), q: plane(r, kind, near) },
-            4 => Point::Planes { p: plane(r, kind, near), q: plane(r, kind, near), r: plane(r, kind, near) },
+            4 => edges(r, kind),
+            5 => Point::Planes { p: plane(r, kind, near), q: plane(r, kind, near), r: plane(r, kind, near) },
             _ => Point::Supports([support(r, kind, near), support(r, kind, near), support(r, kind, near)]),
         };
         if let Some(exact) = point(&x) {
