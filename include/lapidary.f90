@@ -105,6 +105,9 @@ module lapidary
   ! Two simplices lie on the same side of a face that they share, or more than two share it. ids: lower simplex, higher
   ! simplex
   integer(c_int32_t), parameter, public :: LAP_DEFECT_OVERLAPPING_SIMPLICES = 14
+  ! The triangles of an operand do not balance at an edge, as point sets. ids: operand, and those of its vertices that
+  ! the edge joins (-1: the edge ends between vertices, where triangles cut one another)
+  integer(c_int32_t), parameter, public :: LAP_DEFECT_UNBALANCED_EDGE = 15
   ! Largest number of threads of a context.
   integer(c_int32_t), parameter, public :: LAP_MAX_THREADS = 1024
   ! Level of a log message: what the library does and why.

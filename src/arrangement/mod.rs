@@ -4,23 +4,27 @@
 //! Stages in pipeline order: [`soup`] → [`intersect`] (with [`pair`], [`points`]) → [`clusters`] → [`crossings`] → [`triangulate`] →
 //! [`resolve`] → [`patches`] → [`cells`] (with [`nesting`]) → [`winding`] → [`extract`].
 
+pub mod cells;
 pub mod clusters;
 pub mod crossings;
 pub mod data;
 pub mod extract;
 pub mod intersect;
+pub mod nesting;
 pub mod pair;
+pub mod patches;
 pub mod planar;
 pub mod points;
 pub mod resolve;
 pub mod soup;
 pub mod triangulate;
 pub mod volumes;
+pub mod winding;
 
 pub use data::*;
 pub use extract::{Extraction, Selection, choose, extract};
 
-use crate::base::{CellId, Error, FaceId, Result, Run, Status, VertexId};
+use crate::base::{CellId, FaceId, Result, Run, VertexId};
 use crate::complex::{HalfFace, Origin};
 use crate::exact::Point;
 
@@ -82,7 +86,27 @@ impl Arrangement {
 /// Errors: `BadMesh` with every coordinate that is not finite, every index out of range, every edge of an operand that does not balance
 /// (the message names the operand); `TooLarge`; `Cancelled`.
 pub fn arrange(operands: &[Operand], _options: &ArrangementOptions, run: &mut Run) -> Result<Arrangement> {
-    let _ = operands;
-    run.stage("soup", 0.0)?;
-    Err(Error::new(Status::Internal, "arrangements: the stages are not there yet"))
+    let soup = soup::soup(operands, run)?;
+    let contacts = intersect::intersect(&soup, run)?;
+    let clusters = clusters::clusters(&contacts);
+    debug_assert_eq!(clusters.check(&contacts), Ok(()));
+    let pair_count = contacts.pair_count;
+    let graphs = crossings::crossings(&soup, contacts, &clusters, run)?;
+    let resolved = resolve::resolve(soup, graphs, &clusters, pair_count, run)?;
+    drop(clusters);
+    debug_assert_eq!(resolved.check(), Ok(()));
+    run.stage("patches", 0.7)?;
+    let patches = patches::patches(&resolved, run)?;
+    if !patches.unbalanced.is_empty() {
+        return Err(patches::unbalanced_error(&resolved, operands, &patches.unbalanced));
+    }
+    debug_assert_eq!(patches.check(&resolved), Ok(()));
+    run.stage("cells", 0.8)?;
+    let cells = cells::cells(&resolved, patches, run)?;
+    debug_assert_eq!(cells.check(), Ok(()));
+    run.stage("winding", 0.95)?;
+    let winding = winding::winding(&cells)?;
+    debug_assert_eq!(winding.check(&cells), Ok(()));
+    run.end_stage();
+    Ok(Arrangement { resolved, cells, winding, stages: run.take_stages() })
 }

@@ -61,6 +61,9 @@ pub enum DefectKind {
     DegenerateSimplex = 13,
     /// Two simplices lie on the same side of a face that they share (or more than two share it). ids: lower simplex, higher simplex
     OverlappingSimplices = 14,
+    /// The triangles of an operand do not balance at an edge, as point sets. ids: operand, and those of its vertices that the edge joins (−1: the
+    /// edge ends between vertices, where triangles cut one another)
+    UnbalancedEdge = 15,
 }
 
 /// One defect: its kind and the ids of the elements, −1 where unused.

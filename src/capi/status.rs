@@ -59,6 +59,9 @@ pub const LAP_DEFECT_ZERO_NORMAL: i32 = 12;
 pub const LAP_DEFECT_DEGENERATE_SIMPLEX: i32 = 13;
 /// Two simplices lie on the same side of a face that they share, or more than two share it. ids: lower simplex, higher simplex
 pub const LAP_DEFECT_OVERLAPPING_SIMPLICES: i32 = 14;
+/// The triangles of an operand do not balance at an edge, as point sets. ids: operand, and those of its vertices that the edge joins (-1: the edge
+/// ends between vertices, where triangles cut one another)
+pub const LAP_DEFECT_UNBALANCED_EDGE: i32 = 15;
 
 const _: () = {
     assert!(LAP_OK == Status::Ok as i32);
@@ -86,6 +89,7 @@ const _: () = {
     assert!(LAP_DEFECT_ZERO_NORMAL == DefectKind::ZeroNormal as i32);
     assert!(LAP_DEFECT_DEGENERATE_SIMPLEX == DefectKind::DegenerateSimplex as i32);
     assert!(LAP_DEFECT_OVERLAPPING_SIMPLICES == DefectKind::OverlappingSimplices as i32);
+    assert!(LAP_DEFECT_UNBALANCED_EDGE == DefectKind::UnbalancedEdge as i32);
 };
 
 /// The version of the library that is running.
@@ -190,6 +194,7 @@ fn defect_name(kind: i32) -> &'static CStr {
         LAP_DEFECT_ZERO_NORMAL => c"LAP_DEFECT_ZERO_NORMAL",
         LAP_DEFECT_DEGENERATE_SIMPLEX => c"LAP_DEFECT_DEGENERATE_SIMPLEX",
         LAP_DEFECT_OVERLAPPING_SIMPLICES => c"LAP_DEFECT_OVERLAPPING_SIMPLICES",
+        LAP_DEFECT_UNBALANCED_EDGE => c"LAP_DEFECT_UNBALANCED_EDGE",
         _ => c"LAP_DEFECT_?",
     }
 }

@@ -279,7 +279,7 @@ fn cross(origin: &Origin, start: &RayStart, t: TriangleId, q: &[[f64; 3]; 3]) ->
 }
 
 /// The coordinate along `axis` at which the line through `p` crosses the triangle's plane.
-fn height(p: &[Rational; 3], q: &[[f64; 3]; 3], axis: usize) -> Rational {
+pub fn height(p: &[Rational; 3], q: &[[f64; 3]; 3], axis: usize) -> Rational {
     let (u, v) = seen_along(axis);
     let q = q.map(|c| c.map(rational));
     let minus = |i: usize, k: usize| Rational::from(&q[i][k] - &p[k]);

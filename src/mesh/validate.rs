@@ -164,5 +164,8 @@ pub fn describe(culprit: &Culprit) -> String {
         DefectKind::OverlappingSimplices => {
             format!("simplices {a} and {b} lie on the same side of a face that they share")
         }
+        DefectKind::UnbalancedEdge => {
+            format!("operand {a}: its triangles do not balance at an edge (vertices {b} and {c}; -1: none)")
+        }
     }
 }
