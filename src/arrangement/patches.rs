@@ -324,10 +324,11 @@ pub fn patches(r: &Resolved, run: &mut Run) -> Result<Patches> {
         found.extend(map_ranges(block.len(), LEAST, |range| {
             let mut found = Found::default();
             let mut walks = Vec::new();
-            for e in block.start + range.start..block.start + range.end {
+            let edges = block.start + range.start..block.start + range.end;
+            for (e, &place) in edges.clone().zip(&places[edges]) {
                 walks.clear();
-                if places[e].is_some() {
-                    walks_of_soup(&faces, mesh.edge_uses.row(places[e]), &mut walks);
+                if place.is_some() {
+                    walks_of_soup(&faces, mesh.edge_uses.row(place), &mut walks);
                 }
                 let face = |u: &EdgeUse| FaceId::of(r.whole + u.triangle.at());
                 walks.extend(parts.edge_uses.row(e).iter().map(|u| Walk::new(face(u), u.forward())));

@@ -240,8 +240,7 @@ fn flood(
         let [a, b, c] = mesh.corners(m);
         let same = turn(&a, &b, &c, axis) == orientation;
         let corners = mesh.triangles[m.at()];
-        for k in 0..3 {
-            let e = mesh.triangle_edges[m.at()][k];
+        for (e, from) in mesh.triangle_edges[m.at()].into_iter().zip(corners) {
             let ends = mesh.edges[e.at()];
             row.clear();
             row.push(ends[0]);
@@ -250,7 +249,7 @@ fn flood(
             }
             row.push(ends[1]);
             // As the member walks it, or against that if the member faces down: then it is on the left.
-            if (ends[0] == corners[k]) != same {
+            if (ends[0] == from) != same {
                 row.reverse();
             }
             for w in row.windows(2) {
@@ -269,9 +268,8 @@ fn flood(
                 continue;
             }
             held.push((t as usize, m));
-            for k in 0..3 {
-                let n = made.across[t as usize][k];
-                if n != NONE && border[t as usize][k] != round && visited[n as usize] != round {
+            for (&n, &of) in made.across[t as usize].iter().zip(&border[t as usize]) {
+                if n != NONE && of != round && visited[n as usize] != round {
                     stack.push(n);
                 }
             }
