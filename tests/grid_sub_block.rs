@@ -7,8 +7,6 @@
 mod common;
 #[path = "common/grid_reference.rs"]
 mod grid_reference;
-#[path = "common/icosphere.rs"]
-mod icosphere;
 
 use common::{Soup, build_soup, cuboid, flipped, merging, together};
 use grid_reference::reference;
@@ -86,7 +84,7 @@ fn cells_of(
 
 /// Compares the boxes `low..low + size` of an n³ grid around the sphere.
 fn compare(level: usize, n: usize, low: [usize; 3], size: usize, outside: bool) {
-    let (vertices, triangles) = icosphere::icosphere(level);
+    let (vertices, triangles) = common::icosphere::icosphere(level);
     let nodes: Vec<f64> = (0..=n).map(|i| -1.1 + 2.2 * i as f64 / n as f64).collect();
     let count = nodes.len() as i64;
     let high = low.map(|i| (i + size) as i64);

@@ -1,7 +1,7 @@
 //! Intersections of all pairs of triangles, gathered: points on edges in order, segments in triangles, overlaps (section 3.1 of the paper).
 //!
-//! Candidates are the pairs whose boxes meet, from a box hierarchy over all operands at once: an operand may intersect itself. Pairs are decided in
-//! batches, in parallel; what they tell is sorted, so the order of candidates does not matter. Equal points found by different pairs become one
+//! Candidates are the pairs whose boxes meet, from a box hierarchy over all operands at once: an operand may intersect itself. Pairs of nodes are
+//! worked on in parallel; what they tell is sorted, so the order of candidates does not matter. Equal points found by different pairs become one
 //! ([`super::points`]).
 //!
 //! Invariant: what lies within an edge is known for the edge, so all triangles there see the same points in the same order.
@@ -13,13 +13,13 @@ use super::points;
 use crate::base::{EdgeId, Result, Run, TriangleId, VertexId};
 use crate::complex::Origin;
 use crate::mesh::TriMesh;
-use crate::mesh::bvh::build_bvh;
+use crate::mesh::bvh::{NodePair, build_bvh};
 use rayon::prelude::*;
 
-/// Pairs that wait to be decided at once.
-const BATCH: usize = 1 << 16;
-/// Pairs in one task at least.
-const LEAST: usize = 1 << 10;
+/// Triangles for each pair of nodes whose triangles one task intersects, about; and so many tasks between two looks at whether the
+/// caller wants to stop.
+const PART: usize = 1 << 9;
+const AT_ONCE: usize = 1 << 9;
 
 /// What pairs told.
 #[derive(Default)]
@@ -58,37 +58,21 @@ pub fn intersect(soup: &Soup, run: &mut Run) -> Result<Contacts> {
     let tree = build_bvh(&mesh.vertices, &mesh.triangles);
     run.stage("intersect", 0.15)?;
     let mut found = Found::default();
-    let mut batch: Vec<[TriangleId; 2]> = Vec::with_capacity(BATCH);
-    let decide = |batch: &[[TriangleId; 2]], found: &mut Found| {
-        let part = |pairs: &[[TriangleId; 2]]| {
-            let mut part = Found::default();
-            for &[a, b] in pairs {
-                part.pairs += meet(mesh, a.min(b), a.max(b), &mut part) as u64;
-            }
-            part
-        };
-        if rayon::current_num_threads() == 1 {
-            found.add(part(batch));
-        } else {
-            let parts: Vec<Found> = batch.par_chunks(LEAST).map(part).collect();
-            parts.into_iter().for_each(|p| found.add(p));
-        }
+    let decide = |&pair: &NodePair| {
+        let mut part = Found::default();
+        tree.meeting_pairs_below(pair, |a, b| part.pairs += meet(mesh, a.min(b), a.max(b), &mut part) as u64);
+        part
     };
-    let mut cancelled = None;
-    tree.meeting_pairs(|a, b| {
-        batch.push([a, b]);
-        if batch.len() == BATCH {
-            decide(&batch, &mut found);
-            batch.clear();
-            cancelled = run.tick("intersect", 0.2).err();
+    for pairs in tree.node_pairs(mesh.triangles.len() / PART).chunks(AT_ONCE) {
+        if rayon::current_num_threads() == 1 {
+            pairs.iter().for_each(|pair| found.add(decide(pair)));
+        } else {
+            let parts: Vec<Found> = pairs.par_iter().with_max_len(1).map(decide).collect();
+            parts.into_iter().for_each(|part| found.add(part));
         }
-        cancelled.is_none()
-    });
-    if let Some(error) = cancelled {
-        return Err(error);
+        run.tick("intersect", 0.2)?;
     }
-    decide(&batch, &mut found);
-    drop((batch, tree));
+    drop(tree);
     run.tick("intersect", 0.3)?;
     Ok(gather(mesh, found))
 }

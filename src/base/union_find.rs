@@ -4,6 +4,7 @@
 
 use super::parallel::{concat, map_ranges, offsets};
 use rayon::prelude::*;
+use std::ops::Range;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 /// Disjoint sets of positions.
@@ -130,6 +131,18 @@ impl SharedUnionFind {
         }
     }
 
+    /// Joins pairs that mostly lie near one another: `walk(range, block)` hands those of some positions to `block`. Each block of positions is
+    /// worked on by one thread, which joins what is within without a locked instruction and without waiting for lines
+    /// of the cache that another one writes; pairs of two blocks follow. Nobody else may join meanwhile.
+    pub fn join_blocks<'a>(&'a self, least: usize, walk: impl Fn(Range<usize>, &mut Block<'a>) + Sync) {
+        let later = map_ranges(self.parent.len(), least, |range| {
+            let mut block = Block { sets: self, start: range.start, end: range.end, later: Vec::new() };
+            walk(range, &mut block);
+            block.later
+        });
+        later.par_iter().for_each(|pairs| pairs.iter().for_each(|p| self.union(p[0] as usize, p[1] as usize)));
+    }
+
     /// When all unions are done: the set of each position, numbered by lowest member, and these lowest members. Positions that
     /// `counts` does not admit (they are in no set with another) get `u32::MAX` and no number.
     pub fn labels(&self, counts: impl Fn(usize) -> bool + Sync) -> (Vec<u32>, Vec<u32>) {
@@ -190,6 +203,28 @@ impl SharedUnionFind {
     }
 }
 
+/// A block of positions that one thread alone works on; see [`SharedUnionFind::join_blocks`].
+pub struct Block<'a> {
+    sets: &'a SharedUnionFind,
+    start: usize,
+    end: usize,
+    later: Vec<[u32; 2]>,
+}
+
+impl Block<'_> {
+    #[inline]
+    pub fn union(&mut self, a: usize, b: usize) {
+        let parent = &self.sets.parent;
+        if a.min(b) < self.start || a.max(b) >= self.end {
+            self.later.push([a as u32, b as u32]);
+        } else if parent[a].load(Ordering::Relaxed) != parent[b].load(Ordering::Relaxed) {
+            // Nobody has left the block yet: roots are roots of this thread's alone.
+            let (a, b) = (self.sets.find(a), self.sets.find(b));
+            parent[a.max(b)].store(a.min(b) as u32, Ordering::Relaxed);
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -217,6 +252,15 @@ mod tests {
             rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(|| {
                 let shared = SharedUnionFind::new(n);
                 pairs.par_iter().for_each(|p| shared.union(p[0], p[1]));
+                let (of, roots) = shared.labels(|_| true);
+                assert_eq!((of, roots.len()), sets.labels());
+                // The same pairs, each with the block of its first position.
+                let shared = SharedUnionFind::new(n);
+                shared.join_blocks(1000, |range, block| {
+                    let here =
+                        pairs.partition_point(|p| p[0] < range.start)..pairs.partition_point(|p| p[0] < range.end);
+                    pairs[here].iter().for_each(|p| block.union(p[0], p[1]));
+                });
                 let (of, roots) = shared.labels(|_| true);
                 assert_eq!((of, roots.len()), sets.labels());
             });

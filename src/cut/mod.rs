@@ -110,7 +110,7 @@ pub fn cut(mesh: &Arc<TriMesh>, planes: &[Plane], _options: &CutOptions, run: &m
     run.stage("cells", 0.85)?;
     let surface = ground.with(&complex.origins[..surface_count], &complex.coords[..surface_count]);
     let mesh_pieces = numbering.first_chord_piece;
-    let joined = patches::join_whole(mesh, &classified, &points, &whole, complex.face_count(), mesh_pieces);
+    let joined = patches::join_whole(mesh, &classified, &points, &sub.cut, &whole, complex.face_count(), mesh_pieces);
     let found = shells::find_shells(&complex, &joined, || lines.directions(&surface, first_line_edge))?;
     run.stage("voids", 0.95)?;
     let all = faces::AllVertices { surface: &surface, origins: &complex.origins, coords: &complex.coords };

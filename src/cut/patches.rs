@@ -4,7 +4,7 @@
 //! edge that no plane crosses or holds, and that nobody else uses, have one wedge of solid between them: their backs belong to
 //! one shell. That settles nearly all edges of fine input; `complex::shells` is left with those around the cuts.
 //!
-//! Cost: linear in mesh edges, shared out among threads; union-find on uncut triangles.
+//! Cost: union-find on uncut triangles, shared out among threads; a bit for each mesh edge; linear in cut triangles.
 
 use super::classify::Classified;
 use super::edges::EdgePoints;
@@ -14,6 +14,8 @@ use crate::complex::HalfFace;
 use crate::complex::shells::Joined;
 use crate::exact::counters;
 use crate::mesh::TriMesh;
+use crate::mesh::shells::{FirstUse, has_fans};
+use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Elements in one task at least.
@@ -57,59 +59,61 @@ pub fn join_whole(
     mesh: &TriMesh,
     classified: &Classified,
     points: &EdgePoints,
+    cut: &[TriangleId],
     whole: &Whole,
     face_count: usize,
     first_chord_piece: u32,
 ) -> Joined {
     let classes = SharedUnionFind::new(2 * face_count);
-    let words = (first_chord_piece as usize).div_ceil(64);
-    let open: Vec<AtomicU64> = (0..words).map(|_| AtomicU64::new(0)).collect();
-    let on_planes = &classified.edges_on;
-    let (first, face) = (&points.first[..], &whole.face[..]);
-    let uses = map_ranges(mesh.edges.len(), LEAST, |range| {
-        let (first, face, classes) = (first, face, &classes);
-        let mut uses = Vec::new();
-        let mut on = on_planes[on_planes.partition_point(|(e, _)| e.at() < range.start)..].iter().peekable();
-        let mut settled = 0;
-        // Pieces rise with edges: words are written one by one, and only the first and the last are shared between threads.
-        let (mut word, mut bits) = (0, 0u64);
-        let flush = |word: usize, bits: u64| {
-            if bits != 0 {
-                open[word].fetch_or(bits, Ordering::Relaxed);
-            }
-        };
-        for e in range.map(EdgeId::of) {
-            let mut plain = first[e.at()] == first[e.at() + 1];
-            while on.next_if(|o| o.0 == e).is_some() {
-                plain = false;
-            }
-            let row = mesh.edge_uses.row(e);
-            if let [a, b] = row
-                && plain
-            {
-                let (a, b) = (face[a.triangle.at()], face[b.triangle.at()]);
-                if a.is_some() && b.is_some() {
-                    classes.union(HalfFace::new(a, false).at(), HalfFace::new(b, false).at());
-                    settled += 1;
+    let left = edges_left(mesh, classified, cut);
+    let is_left = |e: EdgeId| left[e.at() / 64] >> (e.at() % 64) & 1 != 0;
+    let first_use = FirstUse::new(&mesh.edge_uses);
+    // Half-faces `2 f` of whole faces; what lies behind them is nobody's here.
+    classes.join_blocks(LEAST, |range, block| {
+        let faces = range.start.div_ceil(2)..range.end.div_ceil(2).min(whole.triangles.len());
+        for f in faces {
+            let t = whole.triangles[f];
+            for e in mesh.triangle_edges[t.at()] {
+                if is_left(e) {
                     continue;
                 }
-            }
-            let pieces = e.0 + first[e.at()]..=e.0 + first[e.at() + 1];
-            for piece in pieces.clone() {
-                if piece as usize / 64 != word {
-                    flush(word, bits);
-                    (word, bits) = (piece as usize / 64, 0);
+                let first = first_use.of(e);
+                if first != t {
+                    let back = HalfFace::new(whole.face[first.at()], false);
+                    block.union(back.at(), HalfFace::new(FaceId::of(f), false).at());
                 }
-                bits |= 1 << (piece % 64);
+            }
+        }
+    });
+    let open: Vec<AtomicU64> = (0..(first_chord_piece as usize).div_ceil(64)).map(|_| AtomicU64::new(0)).collect();
+    let parts = map_ranges(left.len(), LEAST / 64, |range| {
+        let (mut uses, mut count) = (Vec::new(), 0);
+        // Pieces rise with edges: words are written one by one, and only the first and the last are shared between threads.
+        let (mut word, mut mask) = (0, 0u64);
+        let flush = |word: usize, mask: u64| {
+            if mask != 0 {
+                open[word].fetch_or(mask, Ordering::Relaxed);
+            }
+        };
+        for e in bits(64 * range.start, &left[range]) {
+            count += 1;
+            let (first, last) = (e as u32 + points.first[e], e as u32 + points.first[e + 1]);
+            for piece in first..=last {
+                if piece as usize / 64 != word {
+                    flush(word, mask);
+                    (word, mask) = (piece as usize / 64, 0);
+                }
+                mask |= 1 << (piece % 64);
             }
             // A whole triangle's edges are whole.
-            let whole = row.iter().map(|u| (face[u.triangle.at()], u.forward())).filter(|u| u.0.is_some());
-            uses.extend(whole.map(|(f, forward)| (EdgeId(*pieces.start()), HalfFace::new(f, forward))));
+            let row = mesh.edge_uses.row(e).iter().map(|u| (whole.face[u.triangle.at()], u.forward()));
+            let row = row.filter(|u| u.0.is_some());
+            uses.extend(row.map(|(f, forward)| (EdgeId(first), HalfFace::new(f, forward))));
         }
-        flush(word, bits);
-        counters::count_many(counters::Predicate::RadialOrder, counters::Tier::Topology, settled);
-        uses
+        flush(word, mask);
+        (uses, count)
     });
+    let (uses, counts): (Vec<_>, Vec<usize>) = parts.into_iter().unzip();
     let mut open: Vec<u64> = open.into_iter().map(AtomicU64::into_inner).collect();
     // Chord pieces share the last word.
     if !first_chord_piece.is_multiple_of(64)
@@ -117,5 +121,40 @@ pub fn join_whole(
     {
         *last |= !0 << (first_chord_piece % 64);
     }
+    let settled = mesh.edges.len() - counts.iter().sum::<usize>();
+    counters::count_many(counters::Predicate::RadialOrder, counters::Tier::Topology, settled as u64);
     Joined { classes, first_face: whole.triangles.len(), uses: concat(uses), open }
+}
+
+/// One bit for each mesh edge: it is not used by two whole triangles alone, or lies in a plane. Cut triangles have all edges
+/// that planes cross.
+fn edges_left(mesh: &TriMesh, classified: &Classified, cut: &[TriangleId]) -> Vec<u64> {
+    let left: Vec<AtomicU64> = (0..mesh.edges.len().div_ceil(64)).map(|_| AtomicU64::new(0)).collect();
+    // Neighbours and planes name most of them again.
+    let set = |e: usize| {
+        let (word, bit) = (&left[e / 64], 1 << (e % 64));
+        if word.load(Ordering::Relaxed) & bit == 0 {
+            word.fetch_or(bit, Ordering::Relaxed);
+        }
+    };
+    let (cut, on) = (cut.par_iter().with_min_len(LEAST), classified.edges_on.par_iter().with_min_len(LEAST));
+    cut.for_each(|t| mesh.triangle_edges[t.at()].into_iter().for_each(|e| set(e.at())));
+    on.for_each(|(e, _)| set(e.at()));
+    if has_fans(&mesh.edge_uses) {
+        let fans = (0..mesh.edges.len()).into_par_iter().with_min_len(LEAST);
+        fans.filter(|&e| mesh.edge_uses.range(e).len() > 2).for_each(set);
+    }
+    left.into_iter().map(AtomicU64::into_inner).collect()
+}
+
+/// The places of the bits that are set, rising, the first word's from `base` on.
+fn bits(base: usize, words: &[u64]) -> impl Iterator<Item = usize> {
+    words.iter().enumerate().flat_map(move |(w, &word)| {
+        let mut rest = word;
+        std::iter::from_fn(move || {
+            let bit = rest.trailing_zeros() as usize;
+            rest &= rest.wrapping_sub(1);
+            (bit < 64).then_some(base + 64 * w + bit)
+        })
+    })
 }

@@ -117,7 +117,7 @@ pub fn build(input: &MeshInput, options: &MeshOptions, run: &mut Run) -> Result<
     });
 
     run.stage("mesh: shells", 0.5)?;
-    let components = shells::components(work.triangles.len(), &table.edge_uses);
+    let components = shells::components(&table.triangle_edges, &table.edge_uses);
     if !defects.is_empty() {
         diagnose(&work, &table, &components, options, run, &mut defects)?;
         return Err(bad_mesh(defects));
@@ -165,7 +165,7 @@ pub fn build_patch(input: &MeshInput, options: &MeshOptions, run: &mut Run) -> R
     }
     run.stage("mesh: edges", 0.2)?;
     let table = edge_table(work.vertices.len(), &work.triangles);
-    let components = shells::components(work.triangles.len(), &table.edge_uses);
+    let components = shells::components(&table.triangle_edges, &table.edge_uses);
     let signs = vec![Sign::Positive; components.lowest.len()];
     let mut mesh = assemble(work, table, components, None, &signs);
     mesh.tags = input.tags.map(<[i32]>::to_vec).unwrap_or_default();
@@ -371,7 +371,7 @@ fn diagnose(
     let part: Vec<usize> = (0..work.triangles.len()).filter(|&t| good_component[components.of[t] as usize]).collect();
     let triangles: Vec<[VertexId; 3]> = part.iter().map(|&t| work.triangles[t]).collect();
     let own = edge_table(work.vertices.len(), &triangles);
-    let own_components = shells::components(triangles.len(), &own.edge_uses);
+    let own_components = shells::components(&own.triangle_edges, &own.edge_uses);
     let surface =
         Surface { vertices: &work.vertices, triangles: &triangles, edges: &own.edges, edge_uses: &own.edge_uses };
     let own_shells = shells::shells(surface).unwrap_or_else(|| own_components.clone());

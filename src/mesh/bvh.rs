@@ -170,6 +170,9 @@ fn split(keys: &[(u64, u32)], bvh: &mut Bvh) {
     }
 }
 
+/// Two nodes, maybe the same.
+pub type NodePair = (u32, u32);
+
 impl Bvh {
     /// The map that never falls, per axis.
     #[inline(always)]
@@ -228,7 +231,44 @@ impl Bvh {
 
     /// Visits all pairs of triangles whose boxes meet, each pair once, until `visit` returns false.
     pub fn meeting_pairs(&self, visit: impl FnMut(TriangleId, TriangleId) -> bool) {
-        self.pairs_among(|_, _| true, visit);
+        self.pairs_among(self.root_pair(), |_, _| true, visit);
+    }
+
+    /// The same pairs in parts, for several threads: pairs of nodes, some `count` of them or more if there are so many.
+    pub fn node_pairs(&self, count: usize) -> Vec<NodePair> {
+        let mut pairs = self.root_pair();
+        loop {
+            let before = pairs.len();
+            if before >= count {
+                return pairs;
+            }
+            let mut finer = Vec::with_capacity(4 * before);
+            for &pair in &pairs {
+                if !self.divide(pair, &mut finer) {
+                    finer.push(pair);
+                }
+            }
+            if finer == pairs {
+                return pairs;
+            }
+            pairs = finer;
+        }
+    }
+
+    /// Those of [`Bvh::meeting_pairs`] that are below a pair of nodes.
+    pub fn meeting_pairs_below(&self, pair: NodePair, mut visit: impl FnMut(TriangleId, TriangleId)) {
+        self.pairs_among(
+            vec![pair],
+            |_, _| true,
+            |a, b| {
+                visit(a, b);
+                true
+            },
+        );
+    }
+
+    fn root_pair(&self) -> Vec<NodePair> {
+        if self.nodes.is_empty() { Vec::new() } else { vec![(0, 0)] }
     }
 
     /// The pairs of [`Bvh::meeting_pairs`] of which one triangle at least is `marked`. What holds no marked triangle is
@@ -244,46 +284,53 @@ impl Bvh {
             };
         }
         self.pairs_among(
+            self.root_pair(),
             |a, b| has[a as usize] || has[b as usize],
             |a, b| !(marked[a.at()] || marked[b.at()]) || visit(a, b),
         );
     }
 
-    /// Pairs below those pairs of nodes that are `wanted`.
-    fn pairs_among(&self, wanted: impl Fn(u32, u32) -> bool, mut visit: impl FnMut(TriangleId, TriangleId) -> bool) {
-        let mut stack: Vec<(u32, u32)> = Vec::new();
-        if !self.nodes.is_empty() {
-            stack.push((0, 0));
+    /// Divides a pair of nodes of which one has children: adds the pairs of these, last first. False where there are none.
+    #[inline(always)]
+    fn divide(&self, (a, b): NodePair, pairs: &mut Vec<NodePair>) -> bool {
+        let (p, q) = (&self.nodes[a as usize], &self.nodes[b as usize]);
+        if a == b {
+            if p.count == 0 {
+                let (l, r) = (p.first, p.first + 1);
+                pairs.extend([(l, r), (r, r), (l, l)]);
+            }
+            return p.count == 0;
         }
+        if !p.bounds.meets(&q.bounds) {
+            return true;
+        }
+        match (p.count == 0, q.count == 0) {
+            (true, true) => {
+                let (l, r, m, s) = (p.first, p.first + 1, q.first, q.first + 1);
+                pairs.extend([(r, s), (r, m), (l, s), (l, m)]);
+            }
+            (true, false) => pairs.extend([(p.first + 1, b), (p.first, b)]),
+            (false, true) => pairs.extend([(a, q.first + 1), (a, q.first)]),
+            (false, false) => return false,
+        }
+        true
+    }
+
+    /// Pairs below those pairs of nodes that are `wanted`, until `visit` returns false.
+    fn pairs_among(
+        &self,
+        mut stack: Vec<NodePair>,
+        wanted: impl Fn(u32, u32) -> bool,
+        mut visit: impl FnMut(TriangleId, TriangleId) -> bool,
+    ) {
         while let Some((a, b)) = stack.pop() {
-            if !wanted(a, b) {
+            if !wanted(a, b) || self.divide((a, b), &mut stack) {
                 continue;
             }
             let (p, q) = (&self.nodes[a as usize], &self.nodes[b as usize]);
-            if a == b {
-                if p.count == 0 {
-                    let (l, r) = (p.first, p.first + 1);
-                    stack.extend([(l, r), (r, r), (l, l)]);
-                } else if !self.pairs_in_leaf(p, &mut visit) {
-                    return;
-                }
-                continue;
-            }
-            if !p.bounds.meets(&q.bounds) {
-                continue;
-            }
-            match (p.count == 0, q.count == 0) {
-                (true, true) => {
-                    let (l, r, m, s) = (p.first, p.first + 1, q.first, q.first + 1);
-                    stack.extend([(r, s), (r, m), (l, s), (l, m)]);
-                }
-                (true, false) => stack.extend([(p.first + 1, b), (p.first, b)]),
-                (false, true) => stack.extend([(a, q.first + 1), (a, q.first)]),
-                (false, false) => {
-                    if !self.pairs_of_leaves(p, q, &mut visit) {
-                        return;
-                    }
-                }
+            let go_on = if a == b { self.pairs_in_leaf(p, &mut visit) } else { self.pairs_of_leaves(p, q, &mut visit) };
+            if !go_on {
+                return;
             }
         }
     }

@@ -12,7 +12,7 @@
 
 use super::{EdgeUse, TriMesh};
 use crate::base::parallel::map_ranges;
-use crate::base::{Csr, EdgeId, SharedUnionFind, VertexId};
+use crate::base::{Csr, EdgeId, SharedUnionFind, TriangleId, VertexId};
 use crate::exact::{self, Direction, Sign, cyclic::sort_cyclic};
 use std::ops::Range;
 
@@ -109,14 +109,18 @@ pub struct Sets {
     pub lowest: Vec<u32>,
 }
 
-/// The edge-connected components.
-pub fn components(triangle_count: usize, edge_uses: &Csr<EdgeUse>) -> Sets {
-    let sets = SharedUnionFind::new(triangle_count);
-    map_ranges(edge_uses.len(), LEAST, |range| {
-        for e in range {
-            let uses = edge_uses.row(e);
-            for u in &uses[1..] {
-                sets.union(uses[0].triangle.at(), u.triangle.at());
+/// The edge-connected components. Triangles next to one another in the input mostly are on the surface, too: they are joined in blocks.
+pub fn components(triangle_edges: &[[EdgeId; 3]], edge_uses: &Csr<EdgeUse>) -> Sets {
+    let sets = SharedUnionFind::new(triangle_edges.len());
+    let first_use = FirstUse::new(edge_uses);
+    sets.join_blocks(LEAST, |range, block| {
+        for t in range {
+            // Sides of triangles with equal corners, which are defects, are no edges.
+            for e in triangle_edges[t].into_iter().filter(|e| e.is_some()) {
+                let first = first_use.of(e).at();
+                if first != t {
+                    block.union(first, t);
+                }
             }
         }
     });
@@ -124,10 +128,29 @@ pub fn components(triangle_count: usize, edge_uses: &Csr<EdgeUse>) -> Sets {
     Sets { of, lowest }
 }
 
-/// Whether an edge has more than two uses.
+/// The first use of edges, found in one step where every edge has two uses. Cost: a look at all offsets.
+pub struct FirstUse<'a> {
+    edge_uses: &'a Csr<EdgeUse>,
+    two_each: bool,
+}
+
+impl<'a> FirstUse<'a> {
+    pub fn new(edge_uses: &'a Csr<EdgeUse>) -> Self {
+        let even =
+            |range: Range<usize>| range.clone().zip(&edge_uses.offsets[range]).all(|(e, &o)| o as usize == 2 * e);
+        let two_each = map_ranges(edge_uses.offsets.len(), LEAST, even).into_iter().all(|even| even);
+        Self { edge_uses, two_each }
+    }
+    /// The lowest triangle at an edge.
+    #[inline(always)]
+    pub fn of(&self, e: EdgeId) -> TriangleId {
+        if self.two_each { self.edge_uses.items[2 * e.at()].triangle } else { self.edge_uses.row(e)[0].triangle }
+    }
+}
+
+/// Whether one of the edges, all of which balance, has more than two uses.
 pub fn has_fans(edge_uses: &Csr<EdgeUse>) -> bool {
-    let fan = |range: Range<usize>| range.into_iter().any(|e| edge_uses.range(e).len() > 2);
-    map_ranges(edge_uses.len(), LEAST, fan).contains(&true)
+    edge_uses.items.len() > 2 * edge_uses.len()
 }
 
 /// The shells; `None` where they are the components: without non-manifold edges nothing is computed.

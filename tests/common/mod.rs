@@ -2,8 +2,10 @@
 #![allow(dead_code)]
 
 pub mod functions;
+pub mod icosphere;
 pub mod models;
 pub mod random;
+pub mod shapes;
 
 use lapidary::base::{Culprit, DefectKind, Error, Run};
 use lapidary::mesh::{MeshInput, MeshOptions, TriMesh, build};
