@@ -6,7 +6,8 @@
  * manifold, else pair by pair. Corefinement over exact constructions gives the same volumes where it can (its input and output have to
  * be manifolds), and so do Nef polyhedra for small ones.
  *
- * A few meshes; with LAPIDARY_LONG every closed mesh that does not intersect itself. LAPIDARY_PART=i/n, i from 0, takes every n-th pair only.
+ * A few meshes; with LAPIDARY_LONG every closed mesh that does not intersect itself. LAPIDARY_PART=i/n, i from 0, takes every n-th
+ * mesh only.
  */
 #include "../examples/reader.hpp"
 #include "check.h"
@@ -28,6 +29,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <set>
 #include <sstream>
 
@@ -404,31 +406,40 @@ int main()
         if (listed || (everything && (extension == ".off" || extension == ".obj" || extension == ".stl"))) files.push_back(file);
     }
     std::sort(files.begin(), files.end());
-    std::vector<std::pair<std::string, fixture::solid>> solids;
-    for (const std::string &file : files) {
-        fixture::solid s;
+    /* Read when they are needed; nothing where a file is no clean mesh. */
+    std::map<std::size_t, std::optional<fixture::solid>> read;
+    const auto solid = [&](std::size_t i) -> const std::optional<fixture::solid> & {
+        const auto [place, fresh] = read.emplace(i, std::nullopt);
+        if (!fresh) return place->second;
         try {
-            const examples::Mesh mesh = examples::read_mesh(folder + "/" + file);
-            s = {mesh.coordinates, mesh.triangles};
-        } catch (const std::exception &) {
-            continue; /* not a mesh of polygons */
+            const examples::Mesh mesh = examples::read_mesh(folder + "/" + files[i]);
+            fixture::solid s{mesh.coordinates, mesh.triangles};
+            lapidary::context context;
+            if (make_clean(context, s, nullptr)) place->second = std::move(s);
+        } catch (const std::runtime_error &) {
+            /* not a mesh of polygons */
         }
-        lapidary::context context;
-        if (make_clean(context, s, nullptr)) solids.emplace_back(file, std::move(s));
-    }
-    CHECK(solids.size() >= few.size());
-    for (std::size_t i = part; i < solids.size(); i += parts) {
-        const auto &[name, s] = solids[i];
-        const auto &[other_name, other] = solids[(i + 1) % solids.size()];
-        guarded(name, [&] { compare(name + ", rotated", s, rotated(s)); });
-        guarded(name, [&] { compare(name + ", " + other_name, s, fitted(other, s)); });
-        guarded(name, [&] {
+        return place->second;
+    };
+    std::size_t meshes = 0;
+    for (std::size_t i = part; i < files.size(); i += parts) {
+        if (!solid(i)) continue;
+        const fixture::solid &s = *solid(i);
+        ++meshes;
+        std::size_t next = (i + 1) % files.size();
+        while (!solid(next)) next = (next + 1) % files.size();
+        guarded(files[i], [&] { compare(files[i] + ", rotated", s, rotated(s)); });
+        guarded(files[i], [&] { compare(files[i] + ", " + files[next], s, fitted(*solid(next), s)); });
+        guarded(files[i], [&] {
             const fixture::solid rounded = on_grid(s);
-            compare(name + ", shifted by an edge", rounded, shifted(rounded));
+            compare(files[i] + ", shifted by an edge", rounded, shifted(rounded));
         });
     }
-    std::cout << solids.size() << " meshes; " << manifolds << " outputs are manifolds, " << others << " are not; " << corefined
+    std::cout << meshes << " meshes; " << manifolds << " outputs are manifolds, " << others << " are not; " << corefined
               << " by corefinement, " << by_nef << " by Nef polyhedra" << std::endl;
-    CHECK(manifolds > 0 && corefined > 0 && by_nef > 0 && others > 0);
+    if (parts == 1) {
+        CHECK(meshes >= few.size());
+        CHECK(manifolds > 0 && corefined > 0 && by_nef > 0 && others > 0);
+    }
     return check_result();
 }
