@@ -33,6 +33,10 @@
 #include <set>
 #include <sstream>
 
+#include <csignal>
+#include <sys/wait.h>
+#include <unistd.h>
+
 namespace {
 
 namespace PMP = CGAL::Polygon_mesh_processing;
@@ -44,6 +48,7 @@ using soup::Corners;
 
 /* Triangles of both together beyond which a peer is left out. */
 std::size_t most_for_corefinement = 4000, most_for_nef = 80;
+unsigned seconds_for_corefinement = 20;
 int corefined = 0, by_nef = 0, manifolds = 0, others = 0;
 
 double seconds_since(std::chrono::steady_clock::time_point start)
@@ -199,6 +204,43 @@ bool make_clean(lapidary::context &context, fixture::solid &s, Rational *volume)
     return false;
 }
 
+constexpr int wrong = 64, gives_up = -1, no_end = -2;
+
+/* Compares the volumes of union, intersection and difference by corefinement; returns bits for those that it could do, `wrong`, or why there is no
+   result. On meshes that coincide in part it may fail, and even run on for ever (P.off, shifted by an edge, in CGAL 5.5): so it has a process of its
+   own. */
+int corefinement(const fixture::solid &first, const fixture::solid &second, const std::array<Rational, 3> &volumes)
+{
+    std::cout.flush();
+    const pid_t child = fork();
+    if (child < 0) return gives_up;
+    if (child > 0) {
+        int status = 0;
+        if (waitpid(child, &status, 0) != child) return gives_up;
+        if (WIFSIGNALED(status)) return WTERMSIG(status) == SIGALRM ? no_end : gives_up;
+        return WEXITSTATUS(status) == 255 ? gives_up : WEXITSTATUS(status);
+    }
+    alarm(seconds_for_corefinement);
+    int result = 0;
+    try {
+        Mesh m[2], made[4];
+        if (!mesh_of(first, m[0]) || !mesh_of(second, m[1])) _exit(255);
+        std::array<boost::optional<Mesh *>, 4> to;
+        for (std::size_t i = 0; i < 4; ++i) to[i] = &made[i];
+        const auto done = PMP::corefine_and_compute_boolean_operations(m[0], m[1], to);
+        const std::size_t operations[3] = {PMP::Corefinement::UNION, PMP::Corefinement::INTERSECTION,
+                                           PMP::Corefinement::TM1_MINUS_TM2};
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (!done[operations[i]]) continue;
+            result |= 1 << i;
+            if (!has_volume(made[operations[i]], volumes[i])) _exit(wrong);
+        }
+    } catch (const std::exception &) {
+        _exit(255);
+    }
+    _exit(result);
+}
+
 void compare(const std::string &name, const fixture::solid &first, fixture::solid second)
 {
     const int before = check_failures;
@@ -236,20 +278,13 @@ void compare(const std::string &name, const fixture::solid &first, fixture::soli
         CHECK(adds_up(both, volume("0 & 1")) && adds_up(either, volume("0 | 1")));
     }
     if (clean && triangles <= most_for_corefinement) {
-        Mesh m[2];
-        if (mesh_of(first, m[0]) && mesh_of(second, m[1])) {
-            Mesh made[4];
-            std::array<boost::optional<Mesh *>, 4> to;
-            for (std::size_t i = 0; i < 4; ++i) to[i] = &made[i];
-            const auto done = PMP::corefine_and_compute_boolean_operations(m[0], m[1], to);
-            const std::pair<std::size_t, const char *> operations[3] = {
-                {PMP::Corefinement::UNION, "0 | 1"}, {PMP::Corefinement::INTERSECTION, "0 & 1"}, {PMP::Corefinement::TM1_MINUS_TM2, "0 - 1"}};
-            for (const auto &[i, expression] : operations) {
-                if (!done[i]) continue;
-                ++corefined;
-                peers += std::string(", corefined ") + expression;
-                CHECK(has_volume(made[i], volume(expression)));
-            }
+        const int result = corefinement(first, second, {volume("0 | 1"), volume("0 & 1"), volume("0 - 1")});
+        CHECK(result != wrong);
+        if (result < 0) peers += result == no_end ? ", corefinement does not end" : ", corefinement gives up";
+        for (int i = 0; result > 0 && i < 3; ++i) {
+            if ((result >> i & 1) == 0) continue;
+            ++corefined;
+            peers += i == 0 ? ", corefined |" : i == 1 ? " &" : " -";
         }
     }
     if (clean && triangles <= most_for_nef) {
@@ -380,7 +415,10 @@ void finds_defects()
 int main()
 {
     const bool everything = std::getenv("LAPIDARY_LONG") != nullptr;
-    if (everything) most_for_corefinement = 40000;
+    if (everything) {
+        most_for_corefinement = 40000;
+        seconds_for_corefinement = 300;
+    }
     finds_defects();
     const char *from_environment = std::getenv("LAPIDARY_CGAL_MESHES");
     std::string folder = from_environment != nullptr ? from_environment : "";

@@ -149,7 +149,8 @@ impl Made<'_> {
             let births = offsets(o, self.faces);
             let all = births[self.faces] as usize;
             let (birth_operand, birth_triangle) = (view(p, all, 0, n), view(q, all, 0, 1 << 20));
-            let reversed = std::slice::from_raw_parts(bytes, all.max(1));
+            let reversed: Vec<u8> = (0..all).map(|i| *bytes.add(i)).collect();
+            assert!(reversed.iter().all(|&b| b <= 1));
             for i in 0..all {
                 assert!((birth_triangle[i] as usize) < self.meshes[birth_operand[i] as usize].triangles.len());
             }
