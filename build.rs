@@ -29,6 +29,10 @@ const SOURCES: &[&str] = &[
     "network",
     "network_views",
     "network_surface",
+    "arrangement",
+    "arrangement_views",
+    "arrangement_extract",
+    "surface",
 ];
 
 fn main() {

@@ -15,13 +15,13 @@
 #include "check.h"
 #include "fixture.hpp"
 #include "../examples/reader.hpp"
+#include "soup.hpp"
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/box_intersection_d.h>
-#include <CGAL/intersections.h>
 
 #include <algorithm>
 #include <array>
@@ -37,7 +37,7 @@ namespace PMP = CGAL::Polygon_mesh_processing;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
-using Corners = std::array<std::int32_t, 3>;
+using soup::Corners;
 
 struct Triangles {
     lapidary::groups<double, 3> xyz;
@@ -52,55 +52,18 @@ struct Triangles {
     }
 };
 
-/* Whether two triangles that share vertices by index have nothing else in common. */
 bool only_shared(const Triangles &all, const Corners &a, const Corners &b)
 {
-    std::vector<Exact::Point_3> shared;
-    for (const std::int32_t v : a) {
-        if (std::find(b.begin(), b.end(), v) != b.end()) shared.push_back(all.point<Exact>(v));
-    }
-    if (shared.size() == 3) return false;
-    const auto common = CGAL::intersection(all.triangle<Exact>(a), all.triangle<Exact>(b));
-    if (!common) return shared.empty();
-    if (const auto *p = boost::get<Exact::Point_3>(&*common)) return shared.size() == 1 && *p == shared[0];
-    if (const auto *s = boost::get<Exact::Segment_3>(&*common)) {
-        return shared.size() == 2 && ((s->source() == shared[0] && s->target() == shared[1]) ||
-                                      (s->source() == shared[1] && s->target() == shared[0]));
-    }
-    return false;
+    return soup::only_shared<Exact>([&](std::int32_t v) { return all.point<Exact>(v); }, a, b);
 }
 
 /* Pairs that CGAL's tests were asked about. */
 std::int64_t asked = 0;
 
-/* Whether two triangles have more in common than the vertices that they share by index, by CGAL's predicates alone. Sharing a corner, they
-   meet elsewhere only if the edge opposite to it in one of them meets the other; sharing an edge, only if they are in one plane,
-   folded onto each other. */
 bool meet_wrongly(const Triangles &all, const Corners &a, const Corners &b)
 {
     ++asked;
-    const auto is_in = [](const Corners &t, std::int32_t v) { return std::find(t.begin(), t.end(), v) != t.end(); };
-    const auto shared = std::count_if(a.begin(), a.end(), [&](std::int32_t v) { return is_in(b, v); });
-    if (shared == 0) return CGAL::do_intersect(all.triangle<Kernel>(a), all.triangle<Kernel>(b));
-    if (shared == 3) return true;
-    /* Corners of `t`, those shared with `other` (or those that are not) first, in the order of their ids. */
-    const auto sorted = [&](Corners t, const Corners &other, bool shared_first) {
-        std::sort(t.begin(), t.end(), [&](std::int32_t v, std::int32_t w) {
-            return std::make_pair(is_in(other, v) != shared_first, v) < std::make_pair(is_in(other, w) != shared_first, w);
-        });
-        return t;
-    };
-    if (shared == 1) {
-        const auto opposite = [&](const Corners &t, const Corners &other) {
-            const Corners s = sorted(t, other, false);
-            return Kernel::Segment_3(all.point<Kernel>(s[0]), all.point<Kernel>(s[1]));
-        };
-        return CGAL::do_intersect(all.triangle<Kernel>(a), opposite(b, a)) ||
-               CGAL::do_intersect(all.triangle<Kernel>(b), opposite(a, b));
-    }
-    const Corners s = sorted(a, b, true), t = sorted(b, a, true);
-    const auto p = all.point<Kernel>(s[0]), q = all.point<Kernel>(s[1]), r = all.point<Kernel>(s[2]), o = all.point<Kernel>(t[2]);
-    return CGAL::orientation(p, q, r, o) == CGAL::COPLANAR && CGAL::coplanar_orientation(p, q, r, o) == CGAL::POSITIVE;
+    return soup::meet_wrongly<Kernel>([&](std::int32_t v) { return all.point<Kernel>(v); }, a, b);
 }
 
 /* All distinct triangles, by boxes: how many are degenerate, and how many pairs meet wrongly. */

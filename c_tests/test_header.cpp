@@ -70,5 +70,25 @@ int main()
     } catch (const lapidary::error &e) {
         check(e.status() == LAP_ERR_BAD_ARGUMENT);
     }
+
+    /* A tetrahedron, and the same half as large again along x: what one has and not the other. */
+    std::vector<double> longer = xyz;
+    longer[3] = 1.5;
+    const lapidary::arrangement both(moved, {lapidary::operand(xyz, indices), lapidary::operand(longer, indices)});
+    check(both.counts().cells == 3 && both.cells().windings[0].empty() && both.operands().first_vertices[2] == 8);
+    check(both.faces().cells.size() == both.counts().faces && both.patches().multiplicities.size() == both.counts().patches);
+    check(both.extract(moved, LAP_EXTRACT_UNION).exact_volume(moved) == "1/4" && both.cell_volumes().size() == 3);
+    check(both.extract(moved, "1 - 0").exact_volume(moved) == "1/12" && both.extract(moved, "0").euler() == 2);
+    check(both.extract(moved, std::vector<std::uint8_t>{0, 1, 1}).volume() == 0.25 && !both.stages().empty());
+    const auto second_alone = [](std::int32_t, const std::vector<std::int32_t> &w) { return w[0] == 0 && w[1] == 1; };
+    const lapidary::surface rest = both.extract(moved, second_alone);
+    check(rest.exact_volume(moved) == "1/12" && rest.triangles().flipped.size() == rest.polygons().births.size());
+    check(both.exact_vertex(moved, rest.vertices().sources[0]).size() == 3 && both.vertex_origins().kinds.size() == both.vertices().size());
+    check(both.face_births().reversed.size() == both.counts().faces && both.exact_cell_volume(moved, 0) == "0");
+    try {
+        both.extract(moved, [](std::int32_t, const std::vector<std::int32_t> &) -> bool { throw stop(); });
+        check(false);
+    } catch (const stop &) {
+    }
     return failures;
 }

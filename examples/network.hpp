@@ -2,6 +2,7 @@
 #ifndef LAPIDARY_EXAMPLES_NETWORK_HPP
 #define LAPIDARY_EXAMPLES_NETWORK_HPP
 
+#include "picture.hpp"
 #include "program.hpp"
 #include "report.hpp"
 #include "vtk.hpp"
@@ -210,6 +211,8 @@ struct NetworkArrays {
     // The region of each side of a patch.
     std::vector<std::int32_t> side_regions;
 
+    const std::int32_t *polygon_begin(std::int64_t p) const { return polygon_vertices + polygon_offsets[p]; }
+    const std::int32_t *chain_begin(std::int64_t c) const { return chain_vertices + chain_offsets[c]; }
     // The region before (1) or behind (0) a polygon.
     std::int32_t region(std::int64_t polygon, int side) const
     {
@@ -281,69 +284,17 @@ inline void write_network_vtu(const std::string &path, const NetworkArrays &a)
     end_file(file, "UnstructuredGrid", path);
 }
 
-// A picture in the making: pieces with points of their own, in one colour each, and lines.
-struct Picture {
-    std::vector<double> points;
-    std::vector<std::int64_t> lines, line_offsets, corners, corner_offsets;
-    std::vector<std::int32_t> line_piece, polygon_piece;
-    Numbering numbering;
-
-    explicit Picture(std::int64_t vertices) : numbering(vertices) {}
-
-    // The number of a vertex within a piece that is moved by `shift`.
-    std::int64_t local(const NetworkArrays &a, std::int64_t piece, std::int32_t v, const std::array<double, 3> &shift)
-    {
-        if (first_use(numbering, piece, v, static_cast<std::int64_t>(points.size() / 3)))
-            for (int k = 0; k < 3; ++k) points.push_back(a.xyz[3 * static_cast<std::int64_t>(v) + k] + shift[k]);
-        return numbering.number[v];
-    }
-    void polygon(const NetworkArrays &a, std::int64_t piece, std::int64_t p, bool reversed, const std::array<double, 3> &shift)
-    {
-        const std::int32_t begin = a.polygon_offsets[p], end = a.polygon_offsets[p + 1];
-        for (std::int32_t i = begin; i < end; ++i)
-            corners.push_back(local(a, piece, a.polygon_vertices[reversed ? end - 1 - (i - begin) : i], shift));
-        corner_offsets.push_back(static_cast<std::int64_t>(corners.size()));
-        polygon_piece.push_back(static_cast<std::int32_t>(piece));
-    }
-    void chain(const NetworkArrays &a, std::int64_t piece, std::int64_t c, const std::array<double, 3> &shift)
-    {
-        for (std::int32_t i = a.chain_offsets[c]; i < a.chain_offsets[c + 1]; ++i)
-            lines.push_back(local(a, piece, a.chain_vertices[i], shift));
-        line_offsets.push_back(static_cast<std::int64_t>(lines.size()));
-        line_piece.push_back(static_cast<std::int32_t>(piece));
-    }
-};
-
-// For scripts/render_exploded.py, which colours by "cell". (Lines come first in VTK's cell data.)
-inline void write_picture(const std::string &path, Picture picture)
-{
-    picture.line_piece.insert(picture.line_piece.end(), picture.polygon_piece.begin(), picture.polygon_piece.end());
-    VtkFile file;
-    begin_file(file, "PolyData");
-    file.xml << "<Piece NumberOfPoints=\"" << picture.points.size() / 3 << "\" NumberOfLines=\""
-             << picture.line_offsets.size() << "\" NumberOfPolys=\"" << picture.corner_offsets.size() << "\">\n<Points>\n";
-    add_array(file, "Points", picture.points, 3);
-    file.xml << "</Points>\n<Lines>\n";
-    add_array(file, "connectivity", picture.lines);
-    add_array(file, "offsets", picture.line_offsets);
-    file.xml << "</Lines>\n<Polys>\n";
-    add_array(file, "connectivity", picture.corners);
-    add_array(file, "offsets", picture.corner_offsets);
-    file.xml << "</Polys>\n<CellData Scalars=\"cell\">\n";
-    add_array(file, "cell", picture.line_piece);
-    file.xml << "</CellData>\n</Piece>\n";
-    end_file(file, "PolyData", path);
-}
-
 // The network, a colour for each patch, its chains as lines.
 inline void write_patches(const std::string &path, const NetworkArrays &a)
 {
-    Picture picture(a.vertices);
-    const std::array<double, 3> stay{0, 0, 0};
+    Picture picture(a.xyz, a.vertices);
+    const Shift stay{0, 0, 0};
     for (std::int64_t patch = 0; patch < a.patches; ++patch)
-        for (std::int32_t k = a.patch_offsets[patch]; k < a.patch_offsets[patch + 1]; ++k)
-            picture.polygon(a, patch, a.patch_polygons[k], a.turned[a.patch_polygons[k]] != 0, stay);
-    for (std::int64_t c = 0; c < a.chains; ++c) picture.chain(a, a.patches, c, stay);
+        for (std::int32_t k = a.patch_offsets[patch]; k < a.patch_offsets[patch + 1]; ++k) {
+            const std::int32_t p = a.patch_polygons[k];
+            picture.polygon(patch, patch, a.polygon_begin(p), a.polygon_begin(p + 1), a.turned[p] != 0, stay);
+        }
+    for (std::int64_t c = 0; c < a.chains; ++c) picture.line(a.patches, a.patches, a.chain_begin(c), a.chain_begin(c + 1), stay);
     write_picture(path, std::move(picture));
 }
 
@@ -351,35 +302,11 @@ inline void write_patches(const std::string &path, const NetworkArrays &a)
 // which surround others and reach the boundary of the domain, have no positive volume within their shells and are left out.
 inline void write_regions_exploded(const std::string &path, const NetworkArrays &a, double factor)
 {
-    // Volume and first moments, by cones from the first vertex of each triangle to the origin.
-    struct Moments {
-        double volume = 0;
-        std::array<double, 3> first{0, 0, 0};
-    };
     std::vector<Moments> moments(static_cast<std::size_t>(a.regions));
-    for (std::int64_t p = 0; p < a.polygons; ++p) {
-        const std::int32_t *v = a.polygon_vertices + a.polygon_offsets[p];
-        const std::int32_t n = a.polygon_offsets[p + 1] - a.polygon_offsets[p];
-        for (std::int32_t k = 2; k < n; ++k) {
-            const double *x = a.xyz + 3 * static_cast<std::int64_t>(v[0]), *y = a.xyz + 3 * static_cast<std::int64_t>(v[k - 1]),
-                         *z = a.xyz + 3 * static_cast<std::int64_t>(v[k]);
-            const double volume = (x[0] * (y[1] * z[2] - y[2] * z[1]) + x[1] * (y[2] * z[0] - y[0] * z[2]) +
-                                   x[2] * (y[0] * z[1] - y[1] * z[0])) / 6;
-            for (int side = 0; side < 2; ++side) {
-                // The normal points out of the region behind the polygon.
-                Moments &m = moments[static_cast<std::size_t>(a.region(p, side))];
-                const double cone = side == 0 ? volume : -volume;
-                m.volume += cone;
-                for (int c = 0; c < 3; ++c) m.first[c] += cone * (x[c] + y[c] + z[c]) / 4;
-            }
-        }
-    }
-    Moments all;
-    for (const Moments &m : moments) {
-        if (!(m.volume > 0)) continue;
-        all.volume += m.volume;
-        for (int c = 0; c < 3; ++c) all.first[c] += m.first[c];
-    }
+    for (std::int64_t p = 0; p < a.polygons; ++p)
+        add_cone(moments[static_cast<std::size_t>(a.region(p, 0))], moments[static_cast<std::size_t>(a.region(p, 1))], a.xyz,
+                 a.polygon_begin(p), a.polygon_begin(p + 1));
+    const std::vector<Shift> shifts = apart(moments, factor);
     // The polygons of each region, by one pass over all: count, sum up, fill.
     std::vector<std::int64_t> first(static_cast<std::size_t>(a.regions) + 1, 0);
     for (std::int64_t p = 0; p < a.polygons; ++p)
@@ -397,15 +324,17 @@ inline void write_regions_exploded(const std::string &path, const NetworkArrays 
                 if (beside.empty() || beside.back() != c) beside.push_back(c);
             }
 
-    Picture picture(a.vertices);
+    Picture picture(a.xyz, a.vertices);
     std::int64_t piece = 0;
     for (std::int64_t r = 0; r < a.regions; ++r) {
-        const Moments &m = moments[static_cast<std::size_t>(r)];
-        if (!(m.volume > 0)) continue;
-        std::array<double, 3> shift{};
-        for (int c = 0; c < 3; ++c) shift[c] = factor * (m.first[c] / m.volume - all.first[c] / all.volume);
-        for (std::int64_t k = first[r]; k < first[r + 1]; ++k) picture.polygon(a, piece, sides[k] / 2, sides[k] % 2 != 0, shift);
-        for (const std::int64_t c : chains[static_cast<std::size_t>(r)]) picture.chain(a, piece, c, shift);
+        if (!(moments[static_cast<std::size_t>(r)].volume > 0)) continue;
+        const Shift &shift = shifts[static_cast<std::size_t>(r)];
+        for (std::int64_t k = first[r]; k < first[r + 1]; ++k) {
+            const std::int64_t p = sides[k] / 2;
+            picture.polygon(piece, piece, a.polygon_begin(p), a.polygon_begin(p + 1), sides[k] % 2 != 0, shift);
+        }
+        for (const std::int64_t c : chains[static_cast<std::size_t>(r)])
+            picture.line(piece, piece, a.chain_begin(c), a.chain_begin(c + 1), shift);
         ++piece;
     }
     write_picture(path, std::move(picture));

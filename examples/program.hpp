@@ -35,6 +35,8 @@ struct Free {
     void operator()(lap_grid *p) const { lap_grid_free(p); }
     void operator()(lap_network *p) const { lap_network_free(p); }
     void operator()(lap_simplex *p) const { lap_simplex_free(p); }
+    void operator()(lap_arrangement *p) const { lap_arrangement_free(p); }
+    void operator()(lap_surface *p) const { lap_surface_free(p); }
 };
 template <typename T>
 using Handle = std::unique_ptr<T, Free>;

@@ -1,7 +1,7 @@
 //! Makes the Fortran module `lapidary` out of the C header and `template.f90`.
 //!
-//! The header is read strictly: constants, opaque structs, option structs, callback types and functions in the very forms that it
-//! uses. Whatever else appears is an error, so the module cannot silently lack something. Also errors: names that differ
+//! The header is read strictly: constants, opaque structs, option structs, structs that come in arrays, callback types and functions in the very
+//! forms that it uses. Whatever else appears is an error, so the module cannot silently lack something. Also errors: names that differ
 //! in case alone (to Fortran they are the same), names too long, and an output that looks like an array filled by the caller (all
 //! outputs are single values or views so far; assumed-size would be needed).
 
@@ -26,7 +26,8 @@ struct Module<'a> {
     /// Public names in lower case.
     names: BTreeSet<String>,
     opaque: BTreeSet<&'a str>,
-    structs: BTreeSet<&'a str>,
+    options: BTreeSet<&'a str>,
+    elements: BTreeSet<&'a str>,
     callbacks: BTreeSet<&'a str>,
 }
 
@@ -175,7 +176,12 @@ impl<'a> Module<'a> {
             return Err(unknown());
         }
         self.name(name)?;
-        self.structs.insert(name);
+        // Options tell their size; other structs come in arrays.
+        if fields.contains(" struct_size;") {
+            self.options.insert(name)
+        } else {
+            self.elements.insert(name)
+        };
         self.text += &format!("\n{}  type, bind(c), public :: {name}\n", comment(doc, "  "));
         let mut rest = fields.trim();
         while !rest.is_empty() {
@@ -187,7 +193,12 @@ impl<'a> Module<'a> {
             }
             let (field, next) = rest.split_once(';').ok_or_else(unknown)?;
             let d = declaration(field)?;
-            let (kind, _) = number(d.base).filter(|_| d.stars == 0).ok_or(format!("{name}: unknown field {field}"))?;
+            let kind = match (d.stars, number(d.base)) {
+                (0, Some((kind, _))) => kind,
+                // An array of the caller's.
+                (1, Some(_)) if d.constant => "type(c_ptr)",
+                _ => return Err(format!("{name}: unknown field {field}")),
+            };
             let shape = d.array.map_or(String::new(), |n| format!("({n})"));
             self.text += &format!("    {kind} :: {}{shape}\n", d.name);
             rest = next.trim_start();
@@ -212,6 +223,7 @@ impl<'a> Module<'a> {
             let (of_type, import) = match (d.stars, number(d.base)) {
                 (0, Some(found)) => found,
                 (1, None) if matches!(d.base, "void" | "char") => ("type(c_ptr)", "c_ptr"),
+                (1, Some(_)) if d.constant => ("type(c_ptr)", "c_ptr"),
                 _ => return Err(format!("{name}: unknown parameter {parameter}")),
             };
             imports.insert(import);
@@ -286,7 +298,10 @@ impl<'a> Module<'a> {
                 Ok((format!("character(kind=c_char), intent(in), optional :: {name}(*)"), "c_char"))
             }
             (1, None) if d.base == "void" || self.opaque.contains(d.base) => address("value"),
-            (1, None) if self.structs.contains(d.base) => {
+            (1, None) if self.elements.contains(d.base) && d.constant => {
+                Ok((format!("type({}), intent(in), optional :: {name}(*)", d.base), d.base))
+            }
+            (1, None) if self.options.contains(d.base) => {
                 let intent = if d.constant { "in" } else { "inout" };
                 Ok((format!("type({}), intent({intent}), optional :: {name}", d.base), d.base))
             }

@@ -181,6 +181,38 @@ module lapidary
   integer(c_int32_t), parameter, public :: LAP_REGIONS_AUTOMATIC = 0
   ! Regions are found as classes of nodes, shells and cells, whatever the domain. The same regions, more time.
   integer(c_int32_t), parameter, public :: LAP_REGIONS_CLASSES = 1
+  ! What is inside any operand.
+  integer(c_int32_t), parameter, public :: LAP_EXTRACT_UNION = 0
+  ! What is inside all operands.
+  integer(c_int32_t), parameter, public :: LAP_EXTRACT_INTERSECTION = 1
+  ! What is inside the first operand and no other one.
+  integer(c_int32_t), parameter, public :: LAP_EXTRACT_DIFFERENCE = 2
+  ! What is inside an odd number of operands.
+  integer(c_int32_t), parameter, public :: LAP_EXTRACT_SYMMETRIC_DIFFERENCE = 3
+  ! What is inside at least so many operands, one or more.
+  integer(c_int32_t), parameter, public :: LAP_EXTRACT_AT_LEAST = 4
+  ! Where the winding numbers of all operands have a positive sum: what is inside, were all one mesh.
+  integer(c_int32_t), parameter, public :: LAP_EXTRACT_RESOLVE = 5
+  ! Handle lap_arrangement (type(c_ptr)). The cells into which triangle meshes, the operands, divide space, each with
+  ! its winding number for every operand; solids made of cells (lap_arrangement_extract). Exact for any finite
+  ! coordinates.
+  !
+  ! Operands. Any number of meshes that intersect themselves and one another, with several components, nested, with
+  ! non-manifold edges, with duplicate and overlapping triangles in any orientation, with triangles without area (which
+  ! are dropped). What is asked of each is that its triangles balance at every edge, as point sets: as many on one side
+  ! run along it as against it (T-junctions that cancel are fine). Then every point off the surface has a winding
+  ! number, an integer: how often the surface goes around it, positive where it faces outward. A point is inside an
+  ! operand where that is positive.
+  !
+  ! Vertices: the points that operands give, equal ones once, then those where triangles meet; not all of them are
+  ! corners of faces. Faces: triangles that meet in common vertices and edges only, no two with the same corners; each
+  ! is a part of one input triangle or of several that lie on one another there, its births, and runs like the first of
+  ! them. Patch: faces joined across edges with two faces. Cell: a connected part of space without faces that divide;
+  ! number 0 is the unbounded one. Where births cancel in every operand a face divides nothing: it has no patch and no
+  ! cells. Triangles and vertices of all operands, where they are one number, count through the operands, one behind the
+  ! other (lap_arrangement_operands).
+  !
+  ! Immutable: a const handle may be used from many threads at once; what is computed on demand is computed once.
   ! Handle lap_certified (type(c_ptr)). A complex as triangles over doubles that were checked exactly, repaired where
   ! rounding had made triangles meet, and a report. Immutable: a const handle may be used from many threads at once.
   !
@@ -271,11 +303,12 @@ module lapidary
   !
   ! One handle is filled again and again, and keeps its memory; filling it needs it alone. Otherwise a const handle may
   ! be used from many threads at once.
-  ! Handle lap_surface (type(c_ptr)). The boundary of a union of regions of a network: an oriented mesh. Polygons
-  ! between two regions that were both chosen are gone. It is closed, except where the solid reaches the boundary of the
-  ! network's domain.
+  ! Handle lap_surface (type(c_ptr)). The boundary of a union of regions of a network, or of cells of an arrangement: an
+  ! oriented mesh. What is between two that were both chosen is gone. It is closed, except where a solid of regions
+  ! reaches the boundary of the network's domain. It needs neither the network nor the arrangement to stay alive (and
+  ! keeps what it needs of the latter).
   !
-  ! Immutable: a const handle may be used from many threads at once.
+  ! Immutable: a const handle may be used from many threads at once; what is computed on demand is computed once.
 
   public :: lap_progress
   abstract interface
@@ -407,6 +440,40 @@ module lapidary
       import :: c_int32_t, c_ptr
       type(c_ptr), value :: user
       integer(c_int32_t), value :: region
+    end function
+  end interface
+
+  ! Options of lap_arrangement_new; filled by lap_arrangement_options_init. There is nothing to choose yet.
+  type, bind(c), public :: lap_arrangement_options
+    ! Size of this struct in bytes, as the caller was compiled.
+    integer(c_int32_t) :: struct_size
+  end type
+
+  ! One operand of an arrangement: any triangle mesh that balances at its edges (see lap_arrangement). Its arrays are
+  ! borrowed for the call.
+  type, bind(c), public :: lap_operand
+    integer(c_int64_t) :: n_vertices
+    ! 3 × n_vertices coordinates, each taken as the exact number that it is.
+    type(c_ptr) :: xyz
+    integer(c_int64_t) :: n_triangles
+    ! 3 × n_triangles vertex indices from 0, anticlockwise seen from outside.
+    type(c_ptr) :: indices
+  end type
+
+  public :: lap_inside
+  abstract interface
+    ! Whether a cell is in the solid: return 0 if not, anything else if it is. winding: its winding number for each of
+    ! the n_operands operands (valid during the callback); the cell is inside those where it is positive.
+    !
+    ! Runs on the thread that made the call and under the floating-point environment which that thread had, while no
+    ! work of the library runs with this context. Must return normally (no exception, no longjmp) and must not use the
+    ! same context (LAP_ERR_BUSY); handles and other contexts may be used.
+    integer(c_int32_t) function lap_inside(user, cell, n_operands, winding) bind(c)
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: user
+      integer(c_int32_t), value :: cell
+      integer(c_int64_t), value :: n_operands
+      type(c_ptr), value :: winding
     end function
   end interface
 
@@ -3326,6 +3393,400 @@ module lapidary
     end function
   end interface
 
+  public :: lap_arrangement_options_init
+  interface
+    ! Fills arrangement options with the defaults.
+    !
+    ! struct_size: pass (int32_t)sizeof(lap_arrangement_options); no more than that is written, so a program compiled
+    ! against an older header keeps working.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER; LAP_ERR_BAD_ARGUMENT if the size is not a multiple of 4 in 4..4096.
+    integer(c_int32_t) function lap_arrangement_options_init(options, &
+      struct_size) bind(c, name="lap_arrangement_options_init")
+      import :: c_int32_t, lap_arrangement_options
+      type(lap_arrangement_options), intent(inout), optional :: options
+      integer(c_int32_t), value :: struct_size
+    end function
+  end interface
+
+  public :: lap_arrangement_new
+  interface
+    ! Finds the cells into which operands divide space.
+    !
+    ! Inputs (borrowed for the call): operands: n_operands of them; no operands, and operands without triangles, are
+    ! allowed; options: or NULL for the defaults. arrangement: receives the handle, NULL after an error or cancel; free
+    ! it with lap_arrangement_free. It needs neither the operands nor the context to stay alive.
+    !
+    ! Errors: LAP_ERR_BAD_MESH with a message that names the operand, and all defects of one kind
+    ! (lap_context_last_defects): LAP_DEFECT_NON_FINITE_COORDINATE and LAP_DEFECT_INDEX_OUT_OF_RANGE (vertices and
+    ! triangles count through the operands), or LAP_DEFECT_UNBALANCED_EDGE; LAP_ERR_TOO_LARGE, LAP_ERR_NULL_POINTER,
+    ! LAP_ERR_BAD_ARGUMENT for a negative count, LAP_ERR_CANCELLED, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: n log n
+    ! in the triangles to find those that meet; some microseconds for each pair that does; else memory is touched.
+    integer(c_int32_t) function lap_arrangement_new(context, n_operands, operands, options, &
+      arrangement) bind(c, name="lap_arrangement_new")
+      import :: c_int32_t, c_int64_t, c_ptr, lap_arrangement_options, lap_operand
+      type(c_ptr), value :: context
+      integer(c_int64_t), value :: n_operands
+      type(lap_operand), intent(in), optional :: operands(*)
+      type(lap_arrangement_options), intent(in), optional :: options
+      type(c_ptr), intent(inout), optional :: arrangement
+    end function
+  end interface
+
+  public :: lap_arrangement_free
+  interface
+    ! Frees an arrangement and all that was borrowed from it. NULL is allowed and does nothing. Surfaces made from it
+    ! stay.
+    !
+    ! Errors: none.
+    integer(c_int32_t) function lap_arrangement_free(arrangement) bind(c, name="lap_arrangement_free")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value :: arrangement
+    end function
+  end interface
+
+  public :: lap_arrangement_counts
+  interface
+    ! How many elements an arrangement has. cells: the unbounded one included; intersecting_pairs: pairs of input
+    ! triangles that meet outside of what they share; dropped: input triangles without area.
+    !
+    ! Outputs: each may be NULL. Errors: LAP_ERR_NULL_POINTER if arrangement is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_arrangement_counts(arrangement, vertices, faces, patches, cells, &
+      intersecting_pairs, dropped) bind(c, name="lap_arrangement_counts")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: arrangement
+      integer(c_int64_t), intent(inout), optional :: vertices
+      integer(c_int64_t), intent(inout), optional :: faces
+      integer(c_int64_t), intent(inout), optional :: patches
+      integer(c_int64_t), intent(inout), optional :: cells
+      integer(c_int64_t), intent(inout), optional :: intersecting_pairs
+      integer(c_int64_t), intent(inout), optional :: dropped
+    end function
+  end interface
+
+  public :: lap_arrangement_operands
+  interface
+    ! The operands of an arrangement, as they were given.
+    !
+    ! Outputs (each may be NULL; borrowed until the arrangement is freed): count; first_vertices, first_triangles: count
+    ! + 1 numbers each: vertices and triangles of operand i, where they count through all operands, are from place i up
+    ! to, not including, place i + 1; dropped: of each the number of triangles without area.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if arrangement is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_arrangement_operands(arrangement, count, first_vertices, first_triangles, &
+      dropped) bind(c, name="lap_arrangement_operands")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: arrangement
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: first_vertices
+      type(c_ptr), intent(inout), optional :: first_triangles
+      type(c_ptr), intent(inout), optional :: dropped
+    end function
+  end interface
+
+  public :: lap_arrangement_stage_count
+  interface
+    ! How many stages the making of the arrangement ran through.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_arrangement_stage_count(arrangement, &
+      count) bind(c, name="lap_arrangement_stage_count")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value :: arrangement
+      integer(c_int32_t), intent(inout), optional :: count
+    end function
+  end interface
+
+  public :: lap_arrangement_stage
+  interface
+    ! Stage i, from 0, in the order in which they ran: its name and its time in seconds.
+    !
+    ! Outputs (each may be NULL). name is borrowed until the arrangement is freed.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if arrangement is NULL, LAP_ERR_BAD_ARGUMENT if there is no such stage. Threads: any.
+    ! Cost: none.
+    integer(c_int32_t) function lap_arrangement_stage(arrangement, i, name, &
+      seconds) bind(c, name="lap_arrangement_stage")
+      import :: c_double, c_int32_t, c_ptr
+      type(c_ptr), value :: arrangement
+      integer(c_int32_t), value :: i
+      type(c_ptr), intent(inout), optional :: name
+      real(c_double), intent(inout), optional :: seconds
+    end function
+  end interface
+
+  public :: lap_arrangement_vertices
+  interface
+    ! The vertices. No two are the same point; not all of them are corners of faces.
+    !
+    ! Outputs (each may be NULL; borrowed until the arrangement is freed): count; xyz: 3 × count coordinates, each the
+    ! double nearest to the exact one (zero is +0).
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if arrangement is NULL, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: a copy at the
+    ! first call, then none.
+    integer(c_int32_t) function lap_arrangement_vertices(arrangement, count, &
+      xyz) bind(c, name="lap_arrangement_vertices")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: arrangement
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: xyz
+    end function
+  end interface
+
+  public :: lap_arrangement_vertex_origins
+  interface
+    ! What each vertex is, symbolically: LAP_VERTEX_MESH, or LAP_VERTEX_TRIANGLES.
+    !
+    ! Outputs (each may be NULL; borrowed until the arrangement is freed): count; kinds: count numbers LAP_VERTEX_*;
+    ! ids: 3 × count, as LAP_VERTEX_* says, vertices and triangles counting through all operands (of equal vertices the
+    ! first), -1 where unused.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if arrangement is NULL, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: linear at the
+    ! first call, then none.
+    integer(c_int32_t) function lap_arrangement_vertex_origins(arrangement, count, kinds, &
+      ids) bind(c, name="lap_arrangement_vertex_origins")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: arrangement
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: kinds
+      type(c_ptr), intent(inout), optional :: ids
+    end function
+  end interface
+
+  public :: lap_arrangement_vertex_exact
+  interface
+    ! The exact coordinates of a vertex as canonical strings, "num/den" or "num" for an integer, in decimal. A GMP or
+    ! CGAL rational reads them.
+    !
+    ! Outputs (each may be NULL): x, y, z: valid until the next call with this context.
+    !
+    ! Errors: LAP_ERR_BAD_ARGUMENT for a vertex that is not there; LAP_ERR_NULL_POINTER, LAP_ERR_OUT_OF_MEMORY,
+    ! LAP_ERR_BUSY. Cost: some microseconds.
+    integer(c_int32_t) function lap_arrangement_vertex_exact(context, arrangement, vertex, x, y, &
+      z) bind(c, name="lap_arrangement_vertex_exact")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value :: context
+      type(c_ptr), value :: arrangement
+      integer(c_int32_t), value :: vertex
+      type(c_ptr), intent(inout), optional :: x
+      type(c_ptr), intent(inout), optional :: y
+      type(c_ptr), intent(inout), optional :: z
+    end function
+  end interface
+
+  public :: lap_arrangement_faces
+  interface
+    ! The faces. Those that are whole input triangles come first, in their order, then the parts of others.
+    !
+    ! Outputs (each may be NULL; borrowed until the arrangement is freed): count; vertices: 3 × count; patches: of
+    ! each, -1 where a face divides nothing; cells: 2 × count: the cell behind it, which its normal points away from,
+    ! and the cell before it; -1 where it divides nothing. Seen from the tip of its normal a face runs anticlockwise.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if arrangement is NULL. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_arrangement_faces(arrangement, count, vertices, patches, &
+      cells) bind(c, name="lap_arrangement_faces")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: arrangement
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: vertices
+      type(c_ptr), intent(inout), optional :: patches
+      type(c_ptr), intent(inout), optional :: cells
+    end function
+  end interface
+
+  public :: lap_arrangement_face_births
+  interface
+    ! The input triangles that each face is a part of.
+    !
+    ! Outputs (each may be NULL; borrowed until the arrangement is freed): count: the number of faces; offsets: count +
+    ! 1; operands, triangles, reversed: those of face f are from place offsets[f] up to, not including, place offsets[f
+    ! + 1]: the operand, the triangle by its place in that operand's list, and a byte, 1 where it runs against the face.
+    ! They rise; the first runs like the face.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if arrangement is NULL; LAP_ERR_TOO_LARGE if they are more than 32-bit indices can
+    ! number; LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: linear at the first call, then none.
+    integer(c_int32_t) function lap_arrangement_face_births(arrangement, count, offsets, operands, triangles, &
+      reversed) bind(c, name="lap_arrangement_face_births")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: arrangement
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: offsets
+      type(c_ptr), intent(inout), optional :: operands
+      type(c_ptr), intent(inout), optional :: triangles
+      type(c_ptr), intent(inout), optional :: reversed
+    end function
+  end interface
+
+  public :: lap_arrangement_patches
+  interface
+    ! The patches, numbered by their lowest faces.
+    !
+    ! Outputs (each may be NULL; borrowed until the arrangement is freed): count; faces: the lowest face of each; cells:
+    ! 2 × count: behind and before that face, and so behind and before all faces of the patch (those that run the other
+    ! way: before and behind); offsets: count + 1; operands, multiplicities: those of patch p are from place offsets[p]
+    ! up to, not including, place offsets[p + 1]: operands, rising, and how many triangles of it run like the lowest
+    ! face, less those that run against it. So much is the winding number behind higher than the one before it. Operands
+    ! where that is 0 are left out.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if arrangement is NULL, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: linear in the
+    ! patches at the first call, then none.
+    integer(c_int32_t) function lap_arrangement_patches(arrangement, count, faces, cells, offsets, operands, &
+      multiplicities) bind(c, name="lap_arrangement_patches")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: arrangement
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: faces
+      type(c_ptr), intent(inout), optional :: cells
+      type(c_ptr), intent(inout), optional :: offsets
+      type(c_ptr), intent(inout), optional :: operands
+      type(c_ptr), intent(inout), optional :: multiplicities
+    end function
+  end interface
+
+  public :: lap_arrangement_cells
+  interface
+    ! The winding numbers of each cell: a sparse vector. Cell 0, the unbounded one, has none; the others are numbered by
+    ! their lowest half-faces.
+    !
+    ! Outputs (each may be NULL; borrowed until the arrangement is freed): count: the number of cells; offsets: count +
+    ! 1; operands, windings: those of cell c are from place offsets[c] up to, not including, place offsets[c + 1]:
+    ! operands, rising, and the winding number of each; operands where it is 0 are left out.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if arrangement is NULL, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: linear in the
+    ! cells at the first call, then none.
+    integer(c_int32_t) function lap_arrangement_cells(arrangement, count, offsets, operands, &
+      windings) bind(c, name="lap_arrangement_cells")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: arrangement
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: offsets
+      type(c_ptr), intent(inout), optional :: operands
+      type(c_ptr), intent(inout), optional :: windings
+    end function
+  end interface
+
+  public :: lap_arrangement_cell_volumes
+  interface
+    ! The volume of each cell, in cubed units of the input: the double nearest to the exact volume; of cell 0, the
+    ! unbounded one, 0.
+    !
+    ! Outputs (each may be NULL; borrowed until the arrangement is freed): count: the number of cells; volumes: count.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if arrangement is NULL, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: an exact sum over
+    ! all faces at the first call, a microsecond for a whole triangle and some for a part of one; then none.
+    integer(c_int32_t) function lap_arrangement_cell_volumes(arrangement, count, &
+      volumes) bind(c, name="lap_arrangement_cell_volumes")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: arrangement
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: volumes
+    end function
+  end interface
+
+  public :: lap_arrangement_cell_volume_exact
+  interface
+    ! The exact volume of a cell as a canonical string, "num/den" or "num" for an integer, in decimal; of cell 0, the
+    ! unbounded one, "0".
+    !
+    ! volume: valid until the next call with this context.
+    !
+    ! Errors: LAP_ERR_BAD_ARGUMENT for a cell that is not there; LAP_ERR_NULL_POINTER, LAP_ERR_OUT_OF_MEMORY,
+    ! LAP_ERR_BUSY. Cost: as for lap_arrangement_cell_volumes; the string grows with the number of constructed vertices
+    ! on the cell's boundary.
+    integer(c_int32_t) function lap_arrangement_cell_volume_exact(context, arrangement, cell, &
+      volume) bind(c, name="lap_arrangement_cell_volume_exact")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value :: context
+      type(c_ptr), value :: arrangement
+      integer(c_int32_t), value :: cell
+      type(c_ptr), intent(inout), optional :: volume
+    end function
+  end interface
+
+  public :: lap_arrangement_extract
+  interface
+    ! The surface of a boolean of all operands: solid, which is to say that its triangles meet in common vertices and
+    ! edges only, no two are the same, none is without area (before coordinates are rounded), and around every edge
+    ! inside and outside alternate. Any number of solids can be made from one arrangement.
+    !
+    ! operation: LAP_EXTRACT_*; at_least: how many operands, for LAP_EXTRACT_AT_LEAST (else it is not looked at).
+    ! surface: receives the handle, NULL after an error; free it with lap_surface_free. It keeps what it needs of the
+    ! arrangement, which may be freed before it.
+    !
+    ! Errors: LAP_ERR_BAD_ARGUMENT for an operation that there is not, or at_least below 1; LAP_ERR_NULL_POINTER,
+    ! LAP_ERR_TOO_LARGE, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: linear in cells and faces.
+    integer(c_int32_t) function lap_arrangement_extract(context, arrangement, operation, at_least, &
+      surface) bind(c, name="lap_arrangement_extract")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value :: context
+      type(c_ptr), value :: arrangement
+      integer(c_int32_t), value :: operation
+      integer(c_int32_t), value :: at_least
+      type(c_ptr), intent(inout), optional :: surface
+    end function
+  end interface
+
+  public :: lap_arrangement_extract_expression
+  interface
+    ! The surface of the cells that a boolean expression over the operands takes.
+    !
+    ! expression: text, borrowed for the call, such as "(0 | 1) & !2". A number stands for "inside that operand", from
+    ! 0; ! is not, & and, - and not, ^ one but not both, | or: & and - (as strong as one another, from left to right)
+    ! before ^ before |; brackets; true and false. Spaces are free. Others as for lap_arrangement_extract.
+    !
+    ! Errors: LAP_ERR_BAD_ARGUMENT with a message that names the first character that does not fit or the operand that
+    ! there is not, or if the expression takes in the unbounded cell; LAP_ERR_NULL_POINTER, LAP_ERR_TOO_LARGE,
+    ! LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: linear in the faces, and the cells times the expression.
+    integer(c_int32_t) function lap_arrangement_extract_expression(context, arrangement, expression, &
+      surface) bind(c, name="lap_arrangement_extract_expression")
+      import :: c_char, c_int32_t, c_ptr
+      type(c_ptr), value :: context
+      type(c_ptr), value :: arrangement
+      character(kind=c_char), intent(in), optional :: expression(*)
+      type(c_ptr), intent(inout), optional :: surface
+    end function
+  end interface
+
+  public :: lap_arrangement_extract_table
+  interface
+    ! The surface of the cells that a table takes.
+    !
+    ! table: n_cells bytes, borrowed for the call, nonzero for each cell that is taken; the first, of the unbounded
+    ! cell, is 0; n_cells: as many as the arrangement has. Others as for lap_arrangement_extract.
+    !
+    ! Errors: LAP_ERR_BAD_ARGUMENT for a table of another length, or one that takes in the unbounded cell;
+    ! LAP_ERR_NULL_POINTER, LAP_ERR_TOO_LARGE, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: linear in the faces.
+    integer(c_int32_t) function lap_arrangement_extract_table(context, arrangement, n_cells, table, &
+      surface) bind(c, name="lap_arrangement_extract_table")
+      import :: c_int32_t, c_int64_t, c_int8_t, c_ptr
+      type(c_ptr), value :: context
+      type(c_ptr), value :: arrangement
+      integer(c_int64_t), value :: n_cells
+      integer(c_int8_t), intent(in), optional :: table(*)
+      type(c_ptr), intent(inout), optional :: surface
+    end function
+  end interface
+
+  public :: lap_arrangement_extract_callback
+  interface
+    ! The surface of the cells that a callback takes; it is asked once for each cell, rising, the unbounded one (number
+    ! 0, which it must not take) included.
+    !
+    ! user: handed to the callback. Others as for lap_arrangement_extract.
+    !
+    ! Errors: LAP_ERR_BAD_ARGUMENT if the unbounded cell is taken; LAP_ERR_NULL_POINTER, LAP_ERR_TOO_LARGE,
+    ! LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: linear in the faces, and in cells times operands, and the callbacks.
+    integer(c_int32_t) function lap_arrangement_extract_callback(context, arrangement, callback, user, &
+      surface) bind(c, name="lap_arrangement_extract_callback")
+      import :: c_funptr, c_int32_t, c_ptr
+      type(c_ptr), value :: context
+      type(c_ptr), value :: arrangement
+      type(c_funptr), value :: callback
+      type(c_ptr), value :: user
+      type(c_ptr), intent(inout), optional :: surface
+    end function
+  end interface
+
   public :: lap_surface_free
   interface
     ! Frees a surface and all that was borrowed from it. NULL is allowed and does nothing.
@@ -3341,8 +3802,8 @@ module lapidary
   interface
     ! The vertices of a surface.
     !
-    ! Outputs (each may be NULL; borrowed until the surface is freed): count; xyz: 3 × count coordinates; sources: the
-    ! vertex of the network that each is, rising.
+    ! Outputs (each may be NULL; borrowed until the surface is freed): count; xyz: 3 × count coordinates, each the
+    ! double nearest to the exact one; sources: the vertex of the network or of the arrangement that each is, rising.
     !
     ! Errors: LAP_ERR_NULL_POINTER if surface is NULL. Threads: any. Cost: none.
     integer(c_int32_t) function lap_surface_vertices(surface, count, xyz, sources) bind(c, name="lap_surface_vertices")
@@ -3356,15 +3817,16 @@ module lapidary
 
   public :: lap_surface_polygons
   interface
-    ! The polygons of a surface, convex; or triangles, if it was made so.
+    ! The polygons of a surface, convex; of an arrangement, or if a network's was made so, triangles.
     !
     ! Outputs (each may be NULL; borrowed until the surface is freed): count; offsets: count + 1; vertices: those of
     ! polygon p are vertices[offsets[p]] up to, not including, vertices[offsets[p + 1]], anticlockwise seen from outside
-    ! the solid (in two dimensions: the solid is on the right of the way from the first to the second); births: the
-    ! polygon of the network that each comes from, rising; flipped: a byte for each, 1 where it runs against that
-    ! polygon.
+    ! the solid (in two dimensions: the solid is on the right of the way from the first to the second), as places in
+    ! lap_surface_vertices; births: the polygon of the network, or the face of the arrangement, that each comes from,
+    ! rising; flipped: a byte for each, 1 where it runs against that one.
     !
-    ! Errors: LAP_ERR_NULL_POINTER if surface is NULL. Threads: any. Cost: none.
+    ! Errors: LAP_ERR_NULL_POINTER if surface is NULL. Threads: any. Cost: none; the offsets of triangles are filled at
+    ! the first call.
     integer(c_int32_t) function lap_surface_polygons(surface, count, offsets, vertices, births, &
       flipped) bind(c, name="lap_surface_polygons")
       import :: c_int32_t, c_int64_t, c_ptr
@@ -3374,6 +3836,76 @@ module lapidary
       type(c_ptr), intent(inout), optional :: vertices
       type(c_ptr), intent(inout), optional :: births
       type(c_ptr), intent(inout), optional :: flipped
+    end function
+  end interface
+
+  public :: lap_surface_triangles
+  interface
+    ! The triangles of an arrangement's surface, and the input triangles that they are parts of.
+    !
+    ! Outputs (each may be NULL; borrowed until the surface is freed): count; vertices: 3 × count places in
+    ! lap_surface_vertices, anticlockwise seen from outside the solid; operands, triangles: of each the operand, and the
+    ! triangle by its place in that operand's list, of several that lie there the first whose operand's winding number
+    ! changes; flipped: a byte for each, 1 where it runs against that triangle.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if surface is NULL; LAP_ERR_BAD_ARGUMENT for the surface of a network. Threads: any.
+    ! Cost: none.
+    integer(c_int32_t) function lap_surface_triangles(surface, count, vertices, operands, triangles, &
+      flipped) bind(c, name="lap_surface_triangles")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: surface
+      integer(c_int64_t), intent(inout), optional :: count
+      type(c_ptr), intent(inout), optional :: vertices
+      type(c_ptr), intent(inout), optional :: operands
+      type(c_ptr), intent(inout), optional :: triangles
+      type(c_ptr), intent(inout), optional :: flipped
+    end function
+  end interface
+
+  public :: lap_surface_euler
+  interface
+    ! The Euler characteristic of a surface: vertices - edges + polygons (in two dimensions: vertices - segments). Of a
+    ! sphere 2, of a torus 0; where parts touch in a vertex or an edge, that counts once.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: a sort of all edges at the first call,
+    ! then none.
+    integer(c_int32_t) function lap_surface_euler(surface, euler) bind(c, name="lap_surface_euler")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: surface
+      integer(c_int64_t), intent(inout), optional :: euler
+    end function
+  end interface
+
+  public :: lap_surface_volume
+  interface
+    ! The volume of the solid that an arrangement's surface bounds, in cubed units of the input: the double nearest to
+    ! the exact volume (of the exact vertices, not of the rounded ones).
+    !
+    ! Errors: LAP_ERR_NULL_POINTER; LAP_ERR_BAD_ARGUMENT for the surface of a network; LAP_ERR_OUT_OF_MEMORY. Threads:
+    ! any. Cost: an exact sum over the triangles at the first call, some microseconds for each that a cut input triangle
+    ! was divided into; then none.
+    integer(c_int32_t) function lap_surface_volume(surface, volume) bind(c, name="lap_surface_volume")
+      import :: c_double, c_int32_t, c_ptr
+      type(c_ptr), value :: surface
+      real(c_double), intent(inout), optional :: volume
+    end function
+  end interface
+
+  public :: lap_surface_volume_exact
+  interface
+    ! The exact volume of the solid that an arrangement's surface bounds as a canonical string, "num/den" or "num" for
+    ! an integer, in decimal.
+    !
+    ! volume: valid until the next call with this context. A GMP or CGAL rational reads it.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER; LAP_ERR_BAD_ARGUMENT for the surface of a network; LAP_ERR_OUT_OF_MEMORY,
+    ! LAP_ERR_BUSY. Cost: as for lap_surface_volume; the string grows with the number of constructed vertices.
+    integer(c_int32_t) function lap_surface_volume_exact(context, surface, &
+      volume) bind(c, name="lap_surface_volume_exact")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value :: context
+      type(c_ptr), value :: surface
+      type(c_ptr), intent(inout), optional :: volume
     end function
   end interface
 

@@ -1261,7 +1261,7 @@ inline lap_network_options network_options()
     return options;
 }
 
-/* The boundary of a solid made of regions of a network. */
+/* The boundary of a solid made of regions of a network or of cells of an arrangement. */
 class surface {
 public:
     struct vertices_t {
@@ -1271,6 +1271,11 @@ public:
     struct polygons_t {
         rows<std::int32_t> vertices;
         view<std::int32_t> births;
+        view<std::uint8_t> flipped;
+    };
+    struct triangles_t {
+        groups<std::int32_t, 3> vertices;
+        view<std::int32_t> operands, triangles;
         view<std::uint8_t> flipped;
     };
 
@@ -1290,6 +1295,33 @@ public:
                                    &p.flipped.data));
         p.births.count = p.flipped.count = p.vertices.count;
         return p;
+    }
+    std::int64_t euler() const
+    {
+        std::int64_t euler = 0;
+        check(lap_surface_euler(get(), &euler));
+        return euler;
+    }
+    /* These three are for surfaces of arrangements. */
+    triangles_t triangles() const
+    {
+        triangles_t t;
+        check(lap_surface_triangles(get(), &t.vertices.count, &t.vertices.data, &t.operands.data, &t.triangles.data,
+                                    &t.flipped.data));
+        t.operands.count = t.triangles.count = t.flipped.count = t.vertices.count;
+        return t;
+    }
+    double volume() const
+    {
+        double volume = 0;
+        check(lap_surface_volume(get(), &volume));
+        return volume;
+    }
+    std::string exact_volume(context &with) const
+    {
+        const char *volume = "";
+        with.run(lap_surface_volume_exact(with.get(), get(), &volume));
+        return volume;
     }
 
     const lap_surface *get() const { return handle_.get(); }
@@ -1598,6 +1630,216 @@ private:
         void operator()(lap_network *handle) const { lap_network_free(handle); }
     };
     std::unique_ptr<lap_network, free_it> handle_;
+};
+
+inline lap_arrangement_options arrangement_options()
+{
+    lap_arrangement_options options;
+    check(lap_arrangement_options_init(&options, static_cast<std::int32_t>(sizeof options)));
+    return options;
+}
+
+/* An operand that borrows its arrays: three numbers per vertex, three indices per triangle. */
+inline lap_operand operand(const std::vector<double> &xyz, const std::vector<std::int32_t> &indices)
+{
+    if (xyz.size() % 3 != 0) throw error(LAP_ERR_BAD_ARGUMENT, "xyz does not hold three numbers per vertex");
+    if (indices.size() % 3 != 0) throw error(LAP_ERR_BAD_ARGUMENT, "indices does not hold three numbers per triangle");
+    return {static_cast<std::int64_t>(xyz.size() / 3), xyz.data(), static_cast<std::int64_t>(indices.size() / 3),
+            indices.data()};
+}
+
+/* The cells into which triangle meshes divide space. */
+class arrangement {
+public:
+    struct counts_t {
+        std::int64_t vertices, faces, patches, cells, intersecting_pairs, dropped;
+    };
+    /* The two first have one more than there are operands. */
+    struct operands_t {
+        view<std::int64_t> first_vertices, first_triangles, dropped;
+    };
+    struct origins_t {
+        view<std::int32_t> kinds;
+        groups<std::int32_t, 3> ids;
+    };
+    struct faces_t {
+        groups<std::int32_t, 3> vertices;
+        view<std::int32_t> patches;
+        groups<std::int32_t, 2> cells;
+    };
+    struct births_t {
+        rows<std::int32_t> operands, triangles;
+        rows<std::uint8_t> reversed;
+    };
+    struct patches_t {
+        view<std::int32_t> faces;
+        groups<std::int32_t, 2> cells;
+        rows<std::int32_t> operands, multiplicities;
+    };
+    struct cells_t {
+        rows<std::int32_t> operands, windings;
+    };
+    struct stage {
+        std::string name;
+        double seconds;
+    };
+
+    explicit arrangement(context &with, const std::vector<lap_operand> &operands,
+                         const lap_arrangement_options &options = arrangement_options())
+    {
+        lap_arrangement *made = nullptr;
+        const std::int32_t status = lap_arrangement_new(with.get(), static_cast<std::int64_t>(operands.size()),
+                                                        operands.data(), &options, &made);
+        handle_.reset(made);
+        with.run(status);
+    }
+
+    counts_t counts() const
+    {
+        counts_t n{};
+        check(lap_arrangement_counts(get(), &n.vertices, &n.faces, &n.patches, &n.cells, &n.intersecting_pairs, &n.dropped));
+        return n;
+    }
+    operands_t operands() const
+    {
+        operands_t o;
+        check(lap_arrangement_operands(get(), &o.dropped.count, &o.first_vertices.data, &o.first_triangles.data,
+                                       &o.dropped.data));
+        o.first_vertices.count = o.first_triangles.count = o.dropped.count + 1;
+        return o;
+    }
+    groups<double, 3> vertices() const
+    {
+        groups<double, 3> v;
+        check(lap_arrangement_vertices(get(), &v.count, &v.data));
+        return v;
+    }
+    origins_t vertex_origins() const
+    {
+        origins_t o;
+        check(lap_arrangement_vertex_origins(get(), &o.kinds.count, &o.kinds.data, &o.ids.data));
+        o.ids.count = o.kinds.count;
+        return o;
+    }
+    std::array<std::string, 3> exact_vertex(context &with, std::int32_t vertex) const
+    {
+        const char *x = "", *y = "", *z = "";
+        with.run(lap_arrangement_vertex_exact(with.get(), get(), vertex, &x, &y, &z));
+        return {x, y, z};
+    }
+    faces_t faces() const
+    {
+        faces_t f;
+        check(lap_arrangement_faces(get(), &f.vertices.count, &f.vertices.data, &f.patches.data, &f.cells.data));
+        f.patches.count = f.cells.count = f.vertices.count;
+        return f;
+    }
+    births_t face_births() const
+    {
+        births_t b;
+        check(lap_arrangement_face_births(get(), &b.operands.count, &b.operands.offsets, &b.operands.items,
+                                          &b.triangles.items, &b.reversed.items));
+        b.triangles.count = b.reversed.count = b.operands.count;
+        b.triangles.offsets = b.reversed.offsets = b.operands.offsets;
+        return b;
+    }
+    patches_t patches() const
+    {
+        patches_t p;
+        check(lap_arrangement_patches(get(), &p.faces.count, &p.faces.data, &p.cells.data, &p.operands.offsets,
+                                      &p.operands.items, &p.multiplicities.items));
+        p.cells.count = p.operands.count = p.multiplicities.count = p.faces.count;
+        p.multiplicities.offsets = p.operands.offsets;
+        return p;
+    }
+    /* Operands with winding numbers other than 0, and these. */
+    cells_t cells() const
+    {
+        cells_t c;
+        check(lap_arrangement_cells(get(), &c.operands.count, &c.operands.offsets, &c.operands.items, &c.windings.items));
+        c.windings.count = c.operands.count;
+        c.windings.offsets = c.operands.offsets;
+        return c;
+    }
+    view<double> cell_volumes() const
+    {
+        view<double> v;
+        check(lap_arrangement_cell_volumes(get(), &v.count, &v.data));
+        return v;
+    }
+    std::string exact_cell_volume(context &with, std::int32_t cell) const
+    {
+        const char *volume = "";
+        with.run(lap_arrangement_cell_volume_exact(with.get(), get(), cell, &volume));
+        return volume;
+    }
+
+    /* The surface of a solid: LAP_EXTRACT_*, an expression, a table with a byte for each cell, or a function of each cell and its winding
+       number for every operand; an exception of the function leaves the call. */
+    surface extract(context &with, std::int32_t operation, std::int32_t at_least = 1) const
+    {
+        return made(with, [&](lap_surface **to) {
+            return lap_arrangement_extract(with.get(), get(), operation, at_least, to);
+        });
+    }
+    surface extract(context &with, const std::string &expression) const
+    {
+        return made(with, [&](lap_surface **to) {
+            return lap_arrangement_extract_expression(with.get(), get(), expression.c_str(), to);
+        });
+    }
+    surface extract(context &with, const std::vector<std::uint8_t> &table) const
+    {
+        return made(with, [&](lap_surface **to) {
+            return lap_arrangement_extract_table(with.get(), get(), static_cast<std::int64_t>(table.size()), table.data(), to);
+        });
+    }
+    using inside = std::function<bool(std::int32_t cell, const std::vector<std::int32_t> &winding)>;
+    surface extract(context &with, const inside &chosen) const
+    {
+        const cells_t c = cells();
+        std::vector<std::int32_t> winding(static_cast<std::size_t>(operands().dropped.size()));
+        std::vector<std::uint8_t> table(static_cast<std::size_t>(c.windings.size()));
+        for (std::size_t i = 0; i < table.size(); ++i) {
+            const auto cell = static_cast<std::int64_t>(i);
+            const view<std::int32_t> at = c.operands[cell], numbers = c.windings[cell];
+            for (std::int64_t k = 0; k < at.size(); ++k) winding[static_cast<std::size_t>(at[k])] = numbers[k];
+            table[i] = chosen(static_cast<std::int32_t>(i), winding) ? 1 : 0;
+            for (const std::int32_t k : at) winding[static_cast<std::size_t>(k)] = 0;
+        }
+        return extract(with, table);
+    }
+
+    std::vector<stage> stages() const
+    {
+        std::int32_t count = 0;
+        check(lap_arrangement_stage_count(get(), &count));
+        std::vector<stage> all;
+        for (std::int32_t i = 0; i < count; ++i) {
+            const char *name = "";
+            double seconds = 0;
+            check(lap_arrangement_stage(get(), i, &name, &seconds));
+            all.push_back({name, seconds});
+        }
+        return all;
+    }
+
+    const lap_arrangement *get() const { return handle_.get(); }
+
+private:
+    template <class Make>
+    static surface made(context &with, Make call)
+    {
+        lap_surface *handle = nullptr;
+        const std::int32_t status = call(&handle);
+        surface result(handle);
+        with.run(status);
+        return result;
+    }
+    struct free_it {
+        void operator()(lap_arrangement *handle) const { lap_arrangement_free(handle); }
+    };
+    std::unique_ptr<lap_arrangement, free_it> handle_;
 };
 
 } // namespace lapidary

@@ -54,7 +54,8 @@ fn nothing_is_missing() {
 }
 
 const FRAME: &str = "#ifndef LAPIDARY_H\n#define LAPIDARY_H\n#include <stdint.h>\n/* One. */\n#define LAP_FIRST 1\n\
-                     typedef struct lap_mesh lap_mesh;\ntypedef struct lap_options { int32_t size; int32_t low[3]; } lap_options;\n\
+                     typedef struct lap_mesh lap_mesh;\ntypedef struct lap_options { int32_t struct_size; int32_t low[3]; } lap_options;\n\
+                     typedef struct lap_item { int64_t n; const double *xyz; } lap_item;\ntypedef int32_t (*lap_ask)(void *user, const int32_t *items);\n\
                      #ifdef __cplusplus\nextern \"C\" {\n#endif\n@\n#ifdef __cplusplus\n}\n#endif\n#endif\n";
 
 #[test]
@@ -62,18 +63,22 @@ fn arguments_of_every_kind() {
     let header = FRAME.replace(
         '@',
         "/*\n A doc.\n\n Inputs: xyz: 3 × count.\n */\nint32_t lap_all(struct lap_mesh **made, const struct lap_mesh *mesh, int64_t n,\n \
-         const double *xyz, const lap_options *options, double *value, const int32_t **view, const char **text, void *user);",
+         const double *xyz, const lap_options *options, const lap_item *items, lap_ask ask, double *value, const int32_t **view, const char **text, void *user);",
     );
     let module = made_of(&header).unwrap();
     for wanted in [
         "  ! One.\n  integer(c_int32_t), parameter, public :: LAP_FIRST = 1\n",
-        "  type, bind(c), public :: lap_options\n    integer(c_int32_t) :: size\n    integer(c_int32_t) :: low(3)\n",
+        "  type, bind(c), public :: lap_options\n    integer(c_int32_t) :: struct_size\n    integer(c_int32_t) :: low(3)\n",
         "    ! A doc.\n    !\n    ! Inputs: xyz: 3 × count.\n    integer(c_int32_t) function lap_all(made, mesh, n, ",
         "      type(c_ptr), intent(inout), optional :: made\n",
         "      type(c_ptr), value :: mesh\n",
         "      integer(c_int64_t), value :: n\n",
         "      real(c_double), intent(in), optional :: xyz(*)\n",
         "      type(lap_options), intent(in), optional :: options\n",
+        "  type, bind(c), public :: lap_item\n    integer(c_int64_t) :: n\n    type(c_ptr) :: xyz\n",
+        "      type(lap_item), intent(in), optional :: items(*)\n",
+        "integer(c_int32_t) function lap_ask(user, items) bind(c)\n      import :: c_int32_t, c_ptr\n",
+        "      type(c_funptr), value :: ask\n",
         "      real(c_double), intent(inout), optional :: value\n",
         "      type(c_ptr), intent(inout), optional :: view\n",
         "      type(c_ptr), intent(inout), optional :: text\n",

@@ -6,7 +6,7 @@ mod random;
 
 use lapidary::capi::{
     context::*, cut::*, derived::*, grid::*, grid_boxes::*, grid_moments::*, keys::*, mesh::*, network::*,
-    network_surface::*, network_views::*, status::*,
+    network_surface::*, network_views::*, status::*, surface::*,
 };
 use random::Random;
 use std::ptr::{null, null_mut};

@@ -70,7 +70,7 @@ fn signatures_use_abi_types_only() {
             let ok = match words[..] {
                 ["struct", noun, _] => noun.starts_with("lap_") && parameter.contains('*'),
                 // Callbacks.
-                ["lap_progress" | "lap_log" | "lap_choose", _] => true,
+                ["lap_progress" | "lap_log" | "lap_choose" | "lap_inside", _] => true,
                 ["void", user] => user == "user" && parameter.contains('*'),
                 [base, _] => allowed.contains(&base),
                 _ => false,

@@ -35,5 +35,6 @@ void test_keys(void);
 void test_grid(void);
 void test_simplex(void);
 void test_network(void);
+void test_arrangement(void);
 
 #endif

@@ -76,7 +76,7 @@ void test_status(void)
 
     STATUS(LAP_OK, lap_defect_name(LAP_DEFECT_OPEN_EDGE, &name));
     CHECK(strcmp(name, "LAP_DEFECT_OPEN_EDGE") == 0);
-    for (i = LAP_DEFECT_NON_FINITE_COORDINATE; i <= LAP_DEFECT_OVERLAPPING_SIMPLICES; ++i) {
+    for (i = LAP_DEFECT_NON_FINITE_COORDINATE; i <= LAP_DEFECT_UNBALANCED_EDGE; ++i) {
         STATUS(LAP_OK, lap_defect_name(i, &name));
         CHECK(strchr(name, '?') == NULL);
     }
@@ -97,5 +97,6 @@ int main(void)
     test_grid();
     test_simplex();
     test_network();
+    test_arrangement();
     return check_result();
 }

@@ -47,6 +47,17 @@ contains
     call check(len(lap_text(message)) > 0, "a log message")
     messages = messages + 1
   end subroutine
+
+  ! The cells inside an even number of operands, the unbounded one left out.
+  integer(c_int32_t) function inside_both(user, cell, n_operands, winding) bind(c)
+    type(c_ptr), value :: user, winding
+    integer(c_int32_t), value :: cell
+    integer(c_int64_t), value :: n_operands
+    integer(c_int32_t), pointer :: numbers(:)
+    call check(.not. c_associated(user), "no user pointer for the choice")
+    call lap_view(winding, n_operands, numbers)
+    inside_both = merge(1, 0, cell > 0 .and. mod(count(numbers > 0), 2) == 0)
+  end function
 end module
 
 program test_fortran
@@ -75,6 +86,7 @@ program test_fortran
   call boxes()
   call errors()
   call callbacks()
+  call booleans()
   call ok(lap_mesh_free(mesh), "lap_mesh_free")
   call ok(lap_mesh_free(c_null_ptr), "lap_mesh_free of NULL")
   call ok(lap_context_free(context), "lap_context_free")
@@ -288,5 +300,54 @@ contains
     call check(.not. c_associated(cut) .and. last_fraction < 1, "nothing is left of a cancelled call")
     call ok(lap_context_set_progress(context, c_null_funptr, c_null_ptr), "no progress")
     call ok(lap_context_set_log(context, c_null_funptr, c_null_ptr), "no log")
+  end subroutine
+
+  ! The cube, and the same moved by 1 along every axis.
+  subroutine booleans()
+    real(c_double), target :: xyz(3, 8), moved(3, 8)
+    integer(c_int32_t), target :: corners(3, 12)
+    type(lap_operand) :: operands(2)
+    type(lap_arrangement_options) :: options
+    type(c_ptr) :: arrangement, surface, text, offsets, numbers
+    integer(c_int64_t) :: cells, count, triangles_there
+    integer(c_int32_t), pointer :: rows(:)
+    real(c_double) :: volume
+    arrangement = c_null_ptr
+    surface = c_null_ptr
+    text = c_null_ptr
+    offsets = c_null_ptr
+    numbers = c_null_ptr
+    xyz = cube
+    moved = cube + 1
+    corners = triangles
+    operands%n_vertices = 8
+    operands%n_triangles = 12
+    operands(1)%xyz = c_loc(xyz)
+    operands(2)%xyz = c_loc(moved)
+    operands(1)%indices = c_loc(corners)
+    operands(2)%indices = c_loc(corners)
+    call ok(lap_arrangement_options_init(options, int(c_sizeof(options), c_int32_t)), "lap_arrangement_options_init")
+    call ok(lap_arrangement_new(context, 2_c_int64_t, operands, options, arrangement), "lap_arrangement_new")
+    call ok(lap_arrangement_counts(arrangement, cells=cells), "lap_arrangement_counts")
+    call check(cells == 4, "the cells of two cubes")
+    call ok(lap_arrangement_cells(arrangement, count, offsets, windings=numbers), "lap_arrangement_cells")
+    call lap_view(offsets, count + 1, rows)
+    call check(rows(5) == 4, "winding numbers")
+    call lap_view(numbers, 4_c_int64_t, rows)
+    call check(all(rows == 1), "are all 1")
+    call ok(lap_arrangement_extract(context, arrangement, LAP_EXTRACT_UNION, 0, surface), "lap_arrangement_extract")
+    call ok(lap_surface_volume(surface, volume), "lap_surface_volume")
+    call check(volume == 15, "the volume of the union")
+    call ok(lap_surface_free(surface), "lap_surface_free")
+    call ok(lap_arrangement_extract_expression(context, arrangement, "0 - 1" // c_null_char, surface), "an expression")
+    call ok(lap_surface_volume_exact(context, surface, text), "lap_surface_volume_exact")
+    call check(lap_text(text) == "7", "the volume of the difference")
+    call ok(lap_surface_free(surface), "lap_surface_free")
+    call ok(lap_arrangement_extract_callback(context, arrangement, c_funloc(inside_both), c_null_ptr, surface), "a callback")
+    call ok(lap_surface_triangles(surface, triangles_there), "lap_surface_triangles")
+    call ok(lap_surface_volume(surface, volume), "lap_surface_volume")
+    call check(triangles_there > 0 .and. volume == 1, "the volume of the intersection")
+    call ok(lap_surface_free(surface), "lap_surface_free")
+    call ok(lap_arrangement_free(arrangement), "lap_arrangement_free")
   end subroutine
 end program

@@ -25,6 +25,8 @@ pub enum Selection<'a> {
     SymmetricDifference,
     /// In at least so many operands, one or more.
     AtLeast(u32),
+    /// Where all winding numbers have a positive sum: in the mesh that all operands are together.
+    Resolve,
     /// Text as in [`parse`].
     Expression(&'a str),
     /// One entry for each cell.
@@ -82,6 +84,7 @@ pub fn choose(a: &Arrangement, selection: Selection) -> Result<Vec<bool>> {
         }
         Selection::SymmetricDifference => rows().map(|row| positive(row) % 2 == 1).collect(),
         Selection::AtLeast(k) => rows().map(|row| positive(row) >= k as usize).collect(),
+        Selection::Resolve => rows().map(|row| row.iter().map(|w| i64::from(w.1)).sum::<i64>() > 0).collect(),
         Selection::Expression(text) => {
             let expression = parse(text, operands)?;
             let mut stack = Vec::new();

@@ -4,8 +4,9 @@ use super::derived::Derived;
 use super::guard::guard;
 use super::keys::Keyed;
 use super::view::{address, handle, index, put};
-use crate::base::{CellId, FaceId, PlaneId, Status};
+use crate::base::{CellId, EdgeId, FaceId, PlaneId, Status, TriangleId, VertexId};
 use crate::complex::{Complex, Origin, SupportId};
+use crate::mesh::TriMesh;
 use std::sync::OnceLock;
 
 /// A vertex of the input mesh. ids: its index in the caller's array
@@ -152,22 +153,26 @@ pub unsafe extern "C" fn lap_complex_vertex_origins(
 }
 
 fn origins(c: &Complex) -> (Vec<i32>, Vec<[i32; 3]>) {
-    let source = |v: crate::base::VertexId| c.mesh.vertex_source[v.at()] as i32;
-    let first = |e: crate::base::EdgeId| c.mesh.edge_uses.row(e).first().map_or(-1, |u| u.triangle.0 as i32);
-    let number = |origin: &Origin| match *origin {
+    c.origins.iter().map(|origin| number_origin(&c.mesh, |t| t.0 as i32, origin)).unzip()
+}
+
+/// An origin as numbers for C: LAP_VERTEX_*, and ids. `triangle` numbers the triangles of the mesh for the caller.
+pub fn number_origin(mesh: &TriMesh, triangle: impl Fn(TriangleId) -> i32, origin: &Origin) -> (i32, [i32; 3]) {
+    let source = |v: VertexId| mesh.vertex_source[v.at()] as i32;
+    let first = |e: EdgeId| mesh.edge_uses.row(e).first().map_or(-1, |u| triangle(u.triangle));
+    match *origin {
         Origin::Mesh(v) => (LAP_VERTEX_MESH, [source(v), -1, -1]),
         Origin::Edge(e, p) => {
-            let [a, b] = c.mesh.edges[e.at()];
+            let [a, b] = mesh.edges[e.at()];
             (LAP_VERTEX_EDGE, [source(a), source(b), p.0 as i32])
         }
-        Origin::Triangle(t, p, q) => (LAP_VERTEX_TRIANGLE, [t.0 as i32, p.0 as i32, q.0 as i32]),
+        Origin::Triangle(t, p, q) => (LAP_VERTEX_TRIANGLE, [triangle(t), p.0 as i32, q.0 as i32]),
         Origin::Planes(p, q, r) => (LAP_VERTEX_PLANES, [p.0 as i32, q.0 as i32, r.0 as i32]),
         // Named by the lowest triangle at each edge.
-        Origin::EdgeTriangle(e, t) => (LAP_VERTEX_TRIANGLES, [first(e), t.0 as i32, -1]),
+        Origin::EdgeTriangle(e, t) => (LAP_VERTEX_TRIANGLES, [first(e), triangle(t), -1]),
         Origin::Edges(e, f) => (LAP_VERTEX_TRIANGLES, [first(e), first(f), -1]),
-        Origin::Triangles(t, u, v) => (LAP_VERTEX_TRIANGLES, [t.0 as i32, u.0 as i32, v.0 as i32]),
-    };
-    c.origins.iter().map(number).unzip()
+        Origin::Triangles(t, u, v) => (LAP_VERTEX_TRIANGLES, [t, u, v].map(triangle)),
+    }
 }
 
 /// All planes through each vertex, rising (of coincident planes the lowest).

@@ -11,6 +11,9 @@
 // The names are those of the C interface, and its contract on pointers is each function's doc comment.
 #![allow(non_camel_case_types, clippy::missing_safety_doc)]
 
+pub mod arrangement;
+pub mod arrangement_extract;
+pub mod arrangement_views;
 pub mod certify;
 pub mod complex;
 pub mod context;
@@ -30,4 +33,5 @@ pub mod network_surface;
 pub mod network_views;
 pub mod simplex;
 pub mod status;
+pub mod surface;
 mod view;

@@ -1,8 +1,8 @@
 //! Between our arrays and C's pointers. All raw writes of the C boundary go through `put`.
 
 use crate::base::{
-    BoxId, CellId, ComponentId, EdgeId, FaceId, FunctionId, NodeId, PatchId, PlaneId, PolygonId, RegionId, SetId,
-    ShellId, Status, TetId, VertexId,
+    BoxId, CellId, ComponentId, EdgeId, FaceId, FunctionId, NodeId, OperandId, PatchId, PlaneId, PolygonId, RegionId,
+    SetId, ShellId, Status, TetId, VertexId,
 };
 use crate::complex::{HalfCorner, HalfFace, Key};
 use crate::network::patches::HalfPatch;
@@ -39,6 +39,7 @@ unsafe impl ReadAs<i32> for BoxId {}
 unsafe impl ReadAs<i32> for NodeId {}
 unsafe impl ReadAs<i32> for RegionId {}
 unsafe impl ReadAs<i32> for TetId {}
+unsafe impl ReadAs<i32> for OperandId {}
 unsafe impl ReadAs<i32> for FunctionId {}
 unsafe impl ReadAs<i32> for SetId {}
 unsafe impl ReadAs<i32> for PolygonId {}

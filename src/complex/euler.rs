@@ -22,6 +22,7 @@ use crate::base::union_find::UnionFind;
 use crate::base::{CellId, EdgeId};
 use crate::mesh::shells::{WedgeScratch, wedge_mates};
 use crate::mesh::{EdgeUse, TriMesh};
+use rayon::prelude::*;
 
 /// Euler characteristic of a complex. An error where the half-faces do not pair up (see [`adjacency`]).
 pub fn euler(c: &Complex) -> Result<i64, String> {
@@ -134,4 +135,17 @@ pub fn solid_euler(mesh: &TriMesh) -> i64 {
     // Every triangle has one wall, its inner side: χ of all shells together is orbits − 3T/2 + T.
     let (v, e, t) = (mesh.vertices.len() as i64, mesh.edges.len() as i64, mesh.triangles.len() as i64);
     v - e + t - (2 * orbits - t) / 4
+}
+
+/// Vertices − edges + polygons of a mesh, as the point set that it is; of segments (polygons of two corners): vertices − edges.
+pub fn surface_euler<'a>(vertex_count: usize, polygons: impl Iterator<Item = &'a [u32]>) -> i64 {
+    let (mut edges, mut faces) = (Vec::new(), 0);
+    for corners in polygons {
+        faces += (corners.len() > 2) as i64;
+        let next = corners.iter().cycle().skip(1);
+        edges.extend(corners.iter().zip(next).map(|(&a, &b)| [a.min(b), a.max(b)]));
+    }
+    edges.par_sort_unstable();
+    edges.dedup();
+    vertex_count as i64 - edges.len() as i64 + faces
 }

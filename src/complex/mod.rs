@@ -27,7 +27,7 @@ pub use adjacency::{Adjacency, HalfCorner, adjacency};
 pub use certify::{CertifiedComplex, CertifyOptions, CertifyReport, certify};
 pub use check::{check, check_part, check_volumes};
 pub use data::{Complex, HalfFace, Origin, SupportId};
-pub use euler::{euler, solid_euler};
+pub use euler::{euler, solid_euler, surface_euler};
 pub use keys::{GlobalIds, Key};
 pub use moments::{Moments, moments};
 pub use styles::{FaceArrays, FaceStyle, faces_as};

@@ -1,0 +1,195 @@
+// mesh_boolean: the cells into which meshes divide space, with their winding numbers, and a boolean of the meshes.
+//
+// What a host does with the library, in the order in which it does it: read flat arrays, make a context and an arrangement, take
+// a surface from it, borrow its arrays, free. `mesh_boolean --help` says how to use it.
+#include "boolean.hpp"
+#include "program.hpp"
+
+#include <lapidary.h>
+
+#include <chrono>
+#include <cstdint>
+#include <iostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <unistd.h>
+
+namespace {
+
+using namespace examples;
+
+constexpr const char *usage =
+    R"(usage: mesh_boolean MESH... --op OPERATION [options]
+Finds the cells into which triangle meshes (OFF, OBJ, STL, PLY) divide space, exactly, and writes a boolean of them. Meshes may intersect
+themselves, touch, overlap, and have several components; at every edge their triangles have to balance.
+
+operations (a point is inside a mesh where that winds around it, in the positive sense)
+  union                 inside any mesh
+  intersection          inside all
+  difference            inside the first and no other one
+  xor                   inside an odd number of them
+  resolve               where the winding numbers of all have a positive sum: inside, were they one mesh
+  at-least:K            inside at least K of them
+  expr:"EXPRESSION"     such as "(0 | 1) & !2": numbers are meshes, from 0; ! not, & and, - and not, ^ one but not both, | or
+options
+  --certify             round so that the output does not intersect itself
+  --threads N           worker threads (default 1); the result does not depend on it
+  --repeat N            run N times, report the fastest (default 1)
+  --out FILE            the surface, as OFF, OBJ, STL or PLY; coordinates are the exact ones, rounded
+  --exploded FILE       a picture for scripts/render_exploded.py: the cells moved apart, coloured by winding numbers (.vtp)
+  --explode FACTOR      how far apart (default 0.6)
+  --json FILE           counts, winding numbers, volumes, times, predicate counters, peak memory
+exit status: 0 done, 1 the library refused the input, 2 wrong usage, 3 a file cannot be read or written
+)";
+
+struct Options : Common {
+    std::vector<std::string> meshes;
+    std::string op, out, exploded, expression;
+    std::int32_t operation = LAP_EXTRACT_UNION, at_least = 1;
+    bool certify = false;
+    double explode = 0.6;
+};
+
+void read_operation(Options &options)
+{
+    const std::vector<std::pair<std::string, std::int32_t>> named = {{"union", LAP_EXTRACT_UNION},
+                                                                    {"intersection", LAP_EXTRACT_INTERSECTION},
+                                                                    {"difference", LAP_EXTRACT_DIFFERENCE},
+                                                                    {"xor", LAP_EXTRACT_SYMMETRIC_DIFFERENCE},
+                                                                    {"resolve", LAP_EXTRACT_RESOLVE}};
+    const std::string counted = "at-least:", written = "expr:";
+    for (const auto &[name, operation] : named)
+        if (options.op == name) {
+            options.operation = operation;
+            return;
+        }
+    if (options.op.compare(0, counted.size(), counted) == 0) {
+        options.operation = LAP_EXTRACT_AT_LEAST;
+        options.at_least = static_cast<std::int32_t>(to_count("--op at-least", options.op.substr(counted.size()), 1, many_counts));
+    } else if (options.op.compare(0, written.size(), written) == 0) {
+        options.expression = options.op.substr(written.size());
+        if (options.expression.empty()) throw UsageError("--op expr: needs an expression");
+    } else {
+        throw UsageError("--op: '" + options.op + "' is not an operation");
+    }
+}
+
+Options parse(const std::vector<std::string> &given)
+{
+    Options options;
+    Arguments arguments;
+    options.declare(arguments);
+    arguments.text("--op", options.op);
+    arguments.text("--out", options.out);
+    arguments.text("--exploded", options.exploded);
+    arguments.factor("--explode", options.explode);
+    arguments.flag("--certify", options.certify);
+    arguments.read(given, [&](const std::string &mesh) { options.meshes.push_back(mesh); });
+    if (options.help) return options;
+    if (options.meshes.empty()) throw UsageError("no mesh given");
+    if (options.op.empty()) throw UsageError("--op is needed");
+    read_operation(options);
+    return options;
+}
+
+// One run: meshes in, arrangement and surface out, and what it took. `progress` may be null.
+struct Run {
+    Handle<lap_arrangement> arrangement;
+    Handle<lap_surface> surface;
+    Times times;
+};
+
+Run run(lap_context *context, const std::vector<lap_operand> &operands, const Options &options, Progress *progress)
+{
+    Run result;
+    lap_arrangement *arrangement = nullptr;
+    lap_surface *surface = nullptr;
+    if (progress) start_progress(*progress, "boolean");
+    const auto start = std::chrono::steady_clock::now();
+    must(context, lap_arrangement_new(context, static_cast<std::int64_t>(operands.size()), operands.data(), nullptr, &arrangement));
+    result.arrangement.reset(arrangement);
+    const auto arranged = std::chrono::steady_clock::now();
+    if (options.expression.empty())
+        must(context, lap_arrangement_extract(context, arrangement, options.operation, options.at_least, &surface));
+    else
+        must(context, lap_arrangement_extract_expression(context, arrangement, options.expression.c_str(), &surface));
+    result.surface.reset(surface);
+    const double extract = seconds_since(arranged);
+    result.times.total = seconds_since(start);
+    if (progress) end_progress(*progress);
+    std::int32_t count = 0;
+    must(context, lap_arrangement_stage_count(arrangement, &count));
+    for (std::int32_t i = 0; i < count; ++i) {
+        const char *name = nullptr;
+        double seconds = 0;
+        must(context, lap_arrangement_stage(arrangement, i, &name, &seconds));
+        result.times.stages.emplace_back(name, seconds);
+    }
+    result.times.stages.emplace_back("extract", extract);
+    return result;
+}
+
+int mesh_boolean(const Options &options)
+{
+    if (options.certify) throw Refusal("--certify: certified rounding of surfaces is not available");
+    lap_context *made = nullptr;
+    must(nullptr, lap_context_new(&made));
+    const Handle<lap_context> handle(made);
+    lap_context *context = handle.get();
+    must(context, lap_context_set_threads(context, static_cast<std::int32_t>(options.threads)));
+
+    BooleanReport report;
+    std::vector<Mesh> meshes;
+    std::vector<lap_operand> operands;
+    for (const std::string &path : options.meshes) meshes.push_back(read_mesh(path));
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+        const Mesh &mesh = meshes[i];
+        operands.push_back({mesh.vertex_count(), mesh.coordinates.data(), mesh.triangle_count(), mesh.triangles.data()});
+        report.input.push_back({options.meshes[i], mesh.vertex_count(), mesh.triangle_count(), 0});
+    }
+
+    // The first run counts decisions and shows progress; the timed runs that follow do neither.
+    Progress progress;
+    progress.terminal = isatty(STDERR_FILENO) != 0;
+    must(context, lap_context_set_progress(context, show_progress, &progress));
+    must(context, lap_context_counters_enable(context, 1));
+    Run best = run(context, operands, options, &progress);
+    report.counters = counters_of(context);
+    must(context, lap_context_counters_enable(context, 0));
+    must(context, lap_context_set_progress(context, nullptr, nullptr));
+    for (long i = 0; i < options.repeat; ++i) {
+        best.surface.reset(); // one result at a time: the peak of memory is that of one run
+        best.arrangement.reset();
+        Run next = run(context, operands, options, nullptr);
+        if (i > 0 && best.times.total < next.times.total) next.times = std::move(best.times);
+        best = std::move(next);
+    }
+    report.operation = options.op;
+    report.threads = options.threads;
+    report.repeat = options.repeat;
+    report.times = best.times;
+    report.peak_bytes = peak_bytes();
+
+    fill_arrangement(report, context, best.arrangement.get());
+    fill_output(report, context, best.surface.get());
+    print_boolean_table(report);
+    if (!options.json.empty()) write_boolean_json(options.json, report);
+    if (!options.out.empty()) write_surface(options.out, arrays_of(context, best.surface.get()));
+    if (!options.exploded.empty())
+        write_cells_exploded(options.exploded, context, best.arrangement.get(), report.winding, options.explode);
+    return 0;
+}
+
+} // namespace
+
+int main(int argc, char **argv)
+{
+    return run_program("mesh_boolean", usage, [&] {
+        const Options options = parse(std::vector<std::string>(argv + 1, argv + argc));
+        if (!options.help) return mesh_boolean(options);
+        std::cout << usage;
+        return 0;
+    });
+}
