@@ -138,11 +138,17 @@
 /* Where triangles of an arrangement meet. ids: three triangles; or one at an edge, one that it crosses, and -1 */
 #define LAP_VERTEX_TRIANGLES 4
 
+/* A point of a network's domain where functions vanish (materials are equal). ids: the network's vertex, -1, -1 */
+#define LAP_VERTEX_LEVEL 5
+
 /* A face that lies on a triangle of the input mesh. */
 #define LAP_SUPPORT_TRIANGLE 0
 
 /* A face that lies on a plane. */
 #define LAP_SUPPORT_PLANE 1
+
+/* A polygon of a network. */
+#define LAP_SUPPORT_LEVEL 2
 
 /* Faces with holes: one polygon per loop. */
 #define LAP_FACES_HOLES 0
@@ -991,12 +997,13 @@ int32_t lap_complex_faces(const struct lap_complex *complex,
                           const int32_t **corner_edges);
 
 /*
- What each face lies on. A face on both a triangle and a plane has the triangle as its support, and the plane as well.
+ What each face lies on. A face on both a triangle and a plane has the triangle as its support, and the plane as well; a face
+ of a network's complex is a polygon of the network or lies on a triangle of its domain's boundary.
 
  Outputs (each may be NULL; borrowed as the complex): count; kinds: count numbers LAP_SUPPORT_*; ids: count indices of
- triangles or planes, in the caller's numbering; planes: for each face the lowest plane that it lies on, -1 if none;
+ triangles, planes or polygons, in the caller's numbering; planes: for each face the lowest plane that it lies on, -1 if none;
  tags: for each face the tag of its triangle, 0 for faces on planes only and without tags. The normal of a face is
- that of its support: of the triangle, or (a, b, c) of the plane.
+ that of its support: of the triangle, (a, b, c) of the plane, or the polygon's.
 
  Errors: LAP_ERR_NULL_POINTER if complex is NULL. Threads: any. Cost: linear at the first call, then none.
  */

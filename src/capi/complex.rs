@@ -18,11 +18,15 @@ pub const LAP_VERTEX_TRIANGLE: i32 = 2;
 pub const LAP_VERTEX_PLANES: i32 = 3;
 /// Where triangles of an arrangement meet. ids: three triangles; or one at an edge, one that it crosses, and -1
 pub const LAP_VERTEX_TRIANGLES: i32 = 4;
+/// A point of a network's domain where functions vanish (materials are equal). ids: the network's vertex, -1, -1
+pub const LAP_VERTEX_LEVEL: i32 = 5;
 
 /// A face that lies on a triangle of the input mesh.
 pub const LAP_SUPPORT_TRIANGLE: i32 = 0;
 /// A face that lies on a plane.
 pub const LAP_SUPPORT_PLANE: i32 = 1;
+/// A polygon of a network.
+pub const LAP_SUPPORT_LEVEL: i32 = 2;
 
 /// Vertices, edges, faces and cells. Belongs to the handle that it was borrowed from. Ids are positions in the
 /// arrays, from 0. Immutable: a const handle may be used from many threads at once; what is computed on demand is
@@ -166,6 +170,7 @@ fn origins(c: &Complex) -> (Vec<i32>, Vec<[i32; 3]>) {
         Origin::EdgeTriangle(e, t) => (LAP_VERTEX_TRIANGLES, [first(e), t.0 as i32, -1]),
         Origin::Edges(e, f) => (LAP_VERTEX_TRIANGLES, [first(e), first(f), -1]),
         Origin::Triangles(t, u, v) => (LAP_VERTEX_TRIANGLES, [t.0 as i32, u.0 as i32, v.0 as i32]),
+        Origin::Level(i) => (LAP_VERTEX_LEVEL, [c.levels.vertices[i as usize].0 as i32, -1, -1]),
     };
     c.origins.iter().map(number).unzip()
 }
@@ -247,12 +252,13 @@ pub unsafe extern "C" fn lap_complex_faces(
     })
 }
 
-/// What each face lies on. A face on both a triangle and a plane has the triangle as its support, and the plane as well.
+/// What each face lies on. A face on both a triangle and a plane has the triangle as its support, and the plane as well; a face
+/// of a network's complex is a polygon of the network or lies on a triangle of its domain's boundary.
 ///
 /// Outputs (each may be NULL; borrowed as the complex): count; kinds: count numbers LAP_SUPPORT_*; ids: count indices of
-/// triangles or planes, in the caller's numbering; planes: for each face the lowest plane that it lies on, -1 if none;
+/// triangles, planes or polygons, in the caller's numbering; planes: for each face the lowest plane that it lies on, -1 if none;
 /// tags: for each face the tag of its triangle, 0 for faces on planes only and without tags. The normal of a face is
-/// that of its support: of the triangle, or (a, b, c) of the plane.
+/// that of its support: of the triangle, (a, b, c) of the plane, or the polygon's.
 ///
 /// Errors: LAP_ERR_NULL_POINTER if complex is NULL. Threads: any. Cost: linear at the first call, then none.
 #[unsafe(no_mangle)]
@@ -270,6 +276,7 @@ pub unsafe extern "C" fn lap_complex_face_supports(
             let number = |support: &SupportId| match *support {
                 SupportId::Triangle(t) => (LAP_SUPPORT_TRIANGLE, t.0 as i32),
                 SupportId::Plane(p) => (LAP_SUPPORT_PLANE, p.0 as i32),
+                SupportId::Level(p) => (LAP_SUPPORT_LEVEL, p.0 as i32),
             };
             complex.data.face_support.iter().map(number).unzip()
         });

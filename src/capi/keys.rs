@@ -37,6 +37,9 @@ struct Keys {
 }
 
 fn make(c: &Complex, keyed: &Keyed) -> Result<Keys, Status> {
+    if !c.levels.points.is_empty() || !c.levels.supports.is_empty() {
+        return Err(Status::BadArgument);
+    }
     let ids = GlobalIds {
         triangles: keyed.triangles.as_deref(),
         planes: keyed.planes.as_ref().map(|p| &p.0[..]),

@@ -39,24 +39,12 @@ pub fn euler_with(c: &Complex, a: &Adjacency) -> i64 {
     total - doubled / 2
 }
 
-/// χ of each shell, over half-face orbits.
-pub fn shell_euler(c: &Complex, a: &Adjacency) -> Vec<i64> {
-    let mut shell_of = vec![u32::MAX; 2 * c.face_count()];
-    for s in 0..c.shell_faces.len() {
-        for h in c.shell_faces.row(s) {
-            shell_of[h.at()] = s as u32;
-        }
-    }
-    let mut chi = vec![0i64; c.shell_faces.len()];
+/// Corners of half-faces joined around vertices, within cells.
+fn umbrellas(c: &Complex, a: &Adjacency) -> UnionFind {
     let mut orbits = UnionFind::new(a.mates.len());
-    let mut sides = vec![0i64; chi.len()];
     for h in (0..a.mates.len() as u32).map(HalfCorner) {
         let mate = a.mates[h.at()];
-        if mate.is_none() {
-            continue;
-        }
-        sides[shell_of[a.half_face(h).at()] as usize] += 1;
-        if mate < h {
+        if mate.is_none() || mate < h {
             continue;
         }
         let next = |h: HalfCorner| HalfCorner::new(a.corner_next[h.corner()] as usize, h.front());
@@ -68,6 +56,40 @@ pub fn shell_euler(c: &Complex, a: &Adjacency) -> Vec<i64> {
             orbits.union(next(h).at(), mate.at());
         }
     }
+    orbits
+}
+
+/// Whether several umbrellas of one cell share a vertex. If one is inside another, as those of voids that touch the outer
+/// shell in a point are, pulled apart they are no discs, and [`euler`] is not that of the solid. (Cells of planes are convex but for the input
+/// surface, which [`shell_euler`] knows; regions of a network may be of any form.)
+pub fn has_pinched_cell(c: &Complex, a: &Adjacency) -> bool {
+    let mut orbits = umbrellas(c, a);
+    let mut places = Vec::new();
+    for h in (0..a.mates.len() as u32).map(HalfCorner) {
+        let half = a.half_face(h);
+        let cell = c.face_cells[half.face().at()][half.front() as usize];
+        if cell.is_some() && orbits.find(h.at()) == h.at() {
+            places.push((c.corner_vertices[h.corner()], cell));
+        }
+    }
+    places.sort_unstable();
+    places.windows(2).any(|w| w[0] == w[1])
+}
+
+/// χ of each shell, over half-face orbits.
+pub fn shell_euler(c: &Complex, a: &Adjacency) -> Vec<i64> {
+    let mut shell_of = vec![u32::MAX; 2 * c.face_count()];
+    for s in 0..c.shell_faces.len() {
+        for h in c.shell_faces.row(s) {
+            shell_of[h.at()] = s as u32;
+        }
+    }
+    let mut chi = vec![0i64; c.shell_faces.len()];
+    let mut sides = vec![0i64; chi.len()];
+    for h in (0..a.mates.len() as u32).map(HalfCorner).filter(|h| !a.mates[h.at()].is_none()) {
+        sides[shell_of[a.half_face(h).at()] as usize] += 1;
+    }
+    let mut orbits = umbrellas(c, a);
     let mut on_surface = vec![false; a.mates.len()];
     for h in (0..a.mates.len() as u32).map(HalfCorner) {
         if matches!(c.face_support[a.corner_face[h.corner()].at()], SupportId::Triangle(_)) {
