@@ -9,7 +9,7 @@
 
 use super::adjacency::{adjacency, corner_faces, corner_nexts};
 use super::data::{Complex, HalfFace, Origin, SupportId};
-use super::euler::{euler_with, has_pinched_cell, solid_euler};
+use super::euler::{euler_with, is_pinched, solid_euler};
 use super::exact_values;
 use crate::base::{CellId, Csr, EdgeId, FaceId, TriangleId, VertexId};
 use crate::exact::residue::point_residues;
@@ -383,7 +383,7 @@ fn on_level(c: &Complex, f: FaceId) -> Check {
 }
 
 /// What needs exact geometry: each vertex on the planes that it names and on the support of its faces, coordinates
-/// correctly rounded, cells with positive volume, and the Euler characteristic of the solid (of a network's regions where none is pinched). For tests: a rational volume
+/// correctly rounded, cells with positive volume, and the Euler characteristic of the solid (of a network's regions where nothing is pinched). For tests: a rational volume
 /// per cell.
 pub fn check_exact(c: &Complex) -> Check {
     (0..c.vertex_count()).into_par_iter().try_for_each(|v| {
@@ -410,7 +410,7 @@ pub fn check_exact(c: &Complex) -> Check {
         ensure(exact_values::cell_volume(c, k) > 0, || format!("cell {}: its volume is not positive", k.0))
     })?;
     let adjacency = adjacency(c)?;
-    if !c.levels.supports.is_empty() && has_pinched_cell(c, &adjacency) {
+    if !c.levels.supports.is_empty() && is_pinched(c, &adjacency) {
         return Ok(());
     }
     let (euler, solid) = (euler_with(c, &adjacency), solid_euler(&c.mesh));

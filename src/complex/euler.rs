@@ -59,10 +59,14 @@ fn umbrellas(c: &Complex, a: &Adjacency) -> UnionFind {
     orbits
 }
 
-/// Whether several umbrellas of one cell share a vertex. If one is inside another, as those of voids that touch the outer
+/// Whether several umbrellas of one cell, or of the solid, share a vertex. If one is inside another, as those of voids that touch the outer
 /// shell in a point are, pulled apart they are no discs, and [`euler`] is not that of the solid. (Cells of planes are convex but for the input
 /// surface, which [`shell_euler`] knows; regions of a network may be of any form.)
-pub fn has_pinched_cell(c: &Complex, a: &Adjacency) -> bool {
+pub fn is_pinched(c: &Complex, a: &Adjacency) -> bool {
+    let mut orbits = solid_umbrellas(&c.mesh);
+    if (0..3 * c.mesh.triangles.len()).filter(|&i| orbits.find(i) == i).count() > c.mesh.vertices.len() {
+        return true;
+    }
     let mut orbits = umbrellas(c, a);
     let mut places = Vec::new();
     for h in (0..a.mates.len() as u32).map(HalfCorner) {
@@ -139,6 +143,15 @@ pub fn cell_euler(c: &Complex, shells: &[i64], cell: CellId) -> i64 {
 /// The same expression on the uncut solid: its faces are the triangles, its shells the mesh's (triangles paired across
 /// edges through wedges of solid), its bodies the cells.
 pub fn solid_euler(mesh: &TriMesh) -> i64 {
+    let mut orbits = solid_umbrellas(mesh);
+    let orbits = (0..3 * mesh.triangles.len()).filter(|&i| orbits.find(i) == i).count() as i64;
+    // Every triangle has one wall, its inner side: χ of all shells together is orbits − 3T/2 + T.
+    let (v, e, t) = (mesh.vertices.len() as i64, mesh.edges.len() as i64, mesh.triangles.len() as i64);
+    v - e + t - (2 * orbits - t) / 4
+}
+
+/// Corners of triangles joined around vertices, within the solid.
+fn solid_umbrellas(mesh: &TriMesh) -> UnionFind {
     let sides = 3 * mesh.triangles.len();
     let mut orbits = UnionFind::new(sides);
     let corner = |u: EdgeUse, end: usize| 3 * u.triangle.at() + (u.side() + end) % 3;
@@ -152,8 +165,5 @@ pub fn solid_euler(mesh: &TriMesh) -> i64 {
             orbits.union(corner(a, 1), corner(b, 0));
         }
     }
-    let orbits = (0..sides).filter(|&i| orbits.find(i) == i).count() as i64;
-    // Every triangle has one wall, its inner side: χ of all shells together is orbits − 3T/2 + T.
-    let (v, e, t) = (mesh.vertices.len() as i64, mesh.edges.len() as i64, mesh.triangles.len() as i64);
-    v - e + t - (2 * orbits - t) / 4
+    orbits
 }
