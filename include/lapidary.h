@@ -479,8 +479,8 @@ typedef struct lap_network_options {
     /* How regions are found: LAP_REGIONS_AUTOMATIC, the default, or LAP_REGIONS_CLASSES. */
     int32_t regions;
     /*
-     Nonzero: keep a copy of the values and of the mesh, which lap_network_vertex_exact and lap_network_check need. 0, the
-     default: do not.
+     Nonzero: keep a copy of the values and of the mesh, which lap_network_vertex_exact, lap_network_region_ties,
+     lap_network_complex and lap_network_check need. 0, the default: do not.
      */
     int32_t keep_values;
 } lap_network_options;
@@ -2561,8 +2561,8 @@ int32_t lap_network_region_signs(const struct lap_network *network,
                                  const int32_t **signs);
 
 /*
- The material of each region of an interface: the largest there, of equal ones the lowest. (Which materials are equal throughout a
- part of a simplex, lap_simplex_cell_materials tells of the values at its corners.)
+ The material of each region of an interface: the largest there, of equal ones the lowest. (Which others equal it throughout,
+ lap_network_region_ties tells.)
 
  Outputs (each may be NULL; borrowed until the network is freed): count: the number of regions; materials: count.
 
@@ -2571,6 +2571,42 @@ int32_t lap_network_region_signs(const struct lap_network *network,
 int32_t lap_network_region_materials(const struct lap_network *network,
                                      int64_t *count,
                                      const int32_t **materials);
+
+/*
+ The materials that are equal throughout each region of an interface: its owner, which is the lowest, and those that equal it at every node of every
+ simplex with a part of the region.
+
+ Outputs (each may be NULL; borrowed until the network is freed): count: the number of regions; offsets: count + 1; materials: those
+ of region r are materials[offsets[r]] up to, not including, materials[offsets[r + 1]], rising.
+
+ Errors: LAP_ERR_BAD_ARGUMENT for an arrangement, or if the network was made without keep_values; LAP_ERR_NULL_POINTER,
+ LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: at the first call linear in the simplices of regions with equal materials, then none.
+ */
+int32_t lap_network_region_ties(struct lap_context *context,
+                                const struct lap_network *network,
+                                int64_t *count,
+                                const int32_t **offsets,
+                                const int32_t **materials);
+
+/*
+ The regions of a network in three dimensions as volumes: a complex on which all functions for lap_complex work but those for keys (there are none:
+ LAP_ERR_BAD_ARGUMENT). Its mesh is the boundary of the domain, a triangle for each face of a tetrahedron on it.
+
+ Cells are the regions, in their order. Faces are the pieces that the network leaves of the boundary's triangles, by triangle,
+ then the polygons of the network, in their order: polygon p is face n_faces - n_polygons + p. A polygon with one region on both
+ sides has one cell twice. Vertices are the nodes on the boundary (LAP_VERTEX_MESH, with their numbers as nodes), rising, then the
+ network's other vertices (LAP_VERTEX_LEVEL), rising. Volumes, moments and coordinates are exact as for all complexes.
+
+ complex: borrowed until the network is freed; do not free it.
+
+ Errors: LAP_ERR_BAD_ARGUMENT in two dimensions, or if the network was made without keep_values; LAP_ERR_BAD_MESH with LAP_DEFECT_EMPTY
+ for a domain without tetrahedra, or LAP_DEFECT_DUPLICATE_VERTEX where two nodes on its boundary are in one place;
+ LAP_ERR_TOO_LARGE, LAP_ERR_NULL_POINTER, LAP_ERR_CANCELLED, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: at the first call linear in the
+ network and the boundary, with a sort of all edges, then none. Memory: some 300 bytes a vertex and 250 a polygon.
+ */
+int32_t lap_network_complex(struct lap_context *context,
+                            const struct lap_network *network,
+                            const struct lap_complex **complex);
 
 /*
  All polygons as triangles, without new vertices; in two dimensions there are none.

@@ -1526,7 +1526,20 @@ public:
         t.polygons.count = t.vertices.count;
         return t;
     }
-    /* These two need options with keep_values. */
+    /* These need options with keep_values. */
+    rows<std::int32_t> region_ties(context &with) const
+    {
+        rows<std::int32_t> t;
+        with.run(lap_network_region_ties(with.get(), get(), &t.count, &t.offsets, &t.items));
+        return t;
+    }
+    /* The regions as volumes, borrowed from this network. */
+    class complex complex(context &with) const
+    {
+        const lap_complex *borrowed = nullptr;
+        with.run(lap_network_complex(with.get(), get(), &borrowed));
+        return lapidary::complex(borrowed);
+    }
     std::array<std::string, 3> exact_vertex(context &with, std::int32_t vertex) const
     {
         const char *x = "", *y = "", *z = "";

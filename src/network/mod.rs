@@ -31,6 +31,7 @@ mod signs;
 pub mod simplex;
 mod table;
 pub mod tet_mesh;
+pub mod ties;
 pub mod topology;
 pub mod volumes;
 mod walls;
