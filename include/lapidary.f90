@@ -1427,8 +1427,8 @@ module lapidary
     ! to the next, and the smallest plane that crosses it there; 6: inside a triangle, on two planes; 7: on three
     ! planes.
     !
-    ! Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: linear at the first
-    ! call, then none.
+    ! Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_BAD_ARGUMENT for that of a network,
+    ! LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: linear at the first call, then none.
     integer(c_int32_t) function lap_complex_vertex_keys(complex, count, keys) bind(c, name="lap_complex_vertex_keys")
       import :: c_int32_t, c_int64_t, c_ptr
       type(c_ptr), value :: complex
@@ -1446,8 +1446,8 @@ module lapidary
     ! Outputs (each may be NULL; borrowed as the complex): count; keys: 2 × count, the first number of a pair never
     ! negative.
     !
-    ! Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_INCONSISTENT for input that intersects itself,
-    ! LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: linear at the first call, then none.
+    ! Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_BAD_ARGUMENT for that of a network, LAP_ERR_INCONSISTENT
+    ! for input that intersects itself, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: linear at the first call, then none.
     integer(c_int32_t) function lap_complex_face_keys(complex, count, keys) bind(c, name="lap_complex_face_keys")
       import :: c_int32_t, c_int64_t, c_ptr
       type(c_ptr), value :: complex
@@ -2488,6 +2488,33 @@ module lapidary
       type(c_ptr), intent(inout), optional :: faces
       type(c_ptr), intent(inout), optional :: cells
       type(c_ptr), intent(inout), optional :: planes
+    end function
+  end interface
+
+  public :: lap_simplex_tables
+  interface
+    ! Where the complex of each simplex comes from: a look-up table (one or two functions, two or three materials), or
+    ! construction.
+    !
+    ! Outputs (each may be NULL; borrowed until the handle is filled again or freed): count: the number of simplices;
+    ! n_entries: how many entries the tables have in all, complexes that no permutation of corners and no symmetry of
+    ! functions makes alike; entries: count, the entry of each simplex, -1 where it was constructed; corners: 4 ×
+    ! count, the simplex's corner for each of the entry's; functions: 3 × count, the function (material) for each of
+    ! the entry's; -1 where there is none; flips: a byte for each, bit k set where the entry's function k has the
+    ! opposite sign.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if simplex is NULL. Threads: any. Cost: some ten nanoseconds a simplex at the first
+    ! call, then none.
+    integer(c_int32_t) function lap_simplex_tables(simplex, count, n_entries, entries, corners, functions, &
+      flips) bind(c, name="lap_simplex_tables")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: simplex
+      integer(c_int64_t), intent(inout), optional :: count
+      integer(c_int64_t), intent(inout), optional :: n_entries
+      type(c_ptr), intent(inout), optional :: entries
+      type(c_ptr), intent(inout), optional :: corners
+      type(c_ptr), intent(inout), optional :: functions
+      type(c_ptr), intent(inout), optional :: flips
     end function
   end interface
 

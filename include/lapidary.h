@@ -1233,7 +1233,7 @@ int32_t lap_cut_set_plane_ids(struct lap_context *context,
  corner 0, 1, 2 of a triangle; 3, 4, 5: on the side from corner 0, 1, 2 of a triangle to the next, and the smallest plane that
  crosses it there; 6: inside a triangle, on two planes; 7: on three planes.
 
- Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: linear at the first
+ Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_BAD_ARGUMENT for that of a network, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: linear at the first
  call, then none.
  */
 int32_t lap_complex_vertex_keys(const struct lap_complex *complex,
@@ -1246,7 +1246,7 @@ int32_t lap_complex_vertex_keys(const struct lap_complex *complex,
 
  Outputs (each may be NULL; borrowed as the complex): count; keys: 2 × count, the first number of a pair never negative.
 
- Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_INCONSISTENT for input that intersects itself,
+ Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_BAD_ARGUMENT for that of a network, LAP_ERR_INCONSISTENT for input that intersects itself,
  LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: linear at the first call, then none.
  */
 int32_t lap_complex_face_keys(const struct lap_complex *complex,
@@ -2035,6 +2035,25 @@ int32_t lap_simplex_offsets(const struct lap_simplex *simplex,
                             const int32_t **faces,
                             const int32_t **cells,
                             const int32_t **planes);
+
+/*
+ Where the complex of each simplex comes from: a look-up table (one or two functions, two or three materials), or construction.
+
+ Outputs (each may be NULL; borrowed until the handle is filled again or freed): count: the number of simplices; n_entries: how many entries the
+ tables have in all, complexes that no permutation of corners and no symmetry of functions makes alike; entries: count, the
+ entry of each simplex, -1 where it was constructed; corners: 4 × count, the simplex's corner for each of the entry's; functions: 3 × count, the
+ function (material) for each of the entry's; -1 where there is none; flips: a byte for each, bit k set where the entry's function k
+ has the opposite sign.
+
+ Errors: LAP_ERR_NULL_POINTER if simplex is NULL. Threads: any. Cost: some ten nanoseconds a simplex at the first call, then none.
+ */
+int32_t lap_simplex_tables(const struct lap_simplex *simplex,
+                           int64_t *count,
+                           int64_t *n_entries,
+                           const int32_t **entries,
+                           const int32_t **corners,
+                           const int32_t **functions,
+                           const uint8_t **flips);
 
 /*
  What each vertex is: the point of an open sub-simplex (corner, edge, triangle, tetrahedron; of dimension d) where some

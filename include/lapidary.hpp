@@ -1157,6 +1157,22 @@ public:
         check(lap_simplex_counts(get(), &n.simplices, &n.vertices, &n.edges, &n.faces, &n.cells));
         return n;
     }
+    /* Entries of look-up tables: the corner and the function (with signs changed by bits of flips) for each of the entry's; -1: none. */
+    struct tables_t {
+        std::int64_t entries_in_all = 0;
+        view<std::int32_t> entries;
+        groups<std::int32_t, 4> corners;
+        groups<std::int32_t, 3> functions;
+        view<std::uint8_t> flips;
+    };
+    tables_t tables() const
+    {
+        tables_t t;
+        check(lap_simplex_tables(get(), &t.entries.count, &t.entries_in_all, &t.entries.data, &t.corners.data, &t.functions.data,
+                                 &t.flips.data));
+        t.corners.count = t.functions.count = t.flips.count = t.entries.count;
+        return t;
+    }
     offsets_t offsets() const
     {
         offsets_t o;
