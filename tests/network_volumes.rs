@@ -7,7 +7,8 @@ use common::random::Random;
 use lapidary::base::{CellId, NodeId, PolygonId, RegionId, Run, Status, TetId, VertexId};
 use lapidary::complex::check::check_exact;
 use lapidary::complex::exact_values::{cell_values, cell_volume, mesh_volume};
-use lapidary::complex::{Complex, HalfFace, Origin, SupportId, adjacency, check, check_volumes, moments};
+use lapidary::complex::{CertifyOptions, Complex, HalfFace, Origin, SupportId};
+use lapidary::complex::{adjacency, certify, check, check_volumes, moments};
 use lapidary::exact::round_rational;
 use lapidary::network::exact_vertices::exact_vertex;
 use lapidary::network::local::Setting;
@@ -342,4 +343,17 @@ fn what_has_no_volumes() {
     let error = make(twice, &[vec![1.0; 6]]);
     assert_eq!(error.status, Status::BadMesh);
     assert_eq!(error.culprits[0].ids[..2], [1, 5]);
+}
+
+#[test]
+fn rounded_regions_are_certified() {
+    let grid = BoxGrid::new([12; 3], Some([[-1.0; 3], [1.0; 3]])).unwrap();
+    let ball = |c: f64, r: f64| move |x: &[f64; 3]| r - ((x[0] - c).powi(2) + x[1] * x[1] + x[2] * x[2]).sqrt();
+    let arrays = evaluate(&grid, &[ball(-0.31, 0.613), ball(0.29, 0.587), ball(0.017, 0.371)]);
+    for kind in KINDS {
+        let (_, _, c) = regions(&Domain::Box(grid.clone()), &arrays, kind);
+        let done = certify(&c, &CertifyOptions::default(), &mut Run::quiet()).unwrap();
+        assert!(done.report.certified, "{kind:?}: {:?}", done.report);
+        assert!(done.report.removed_cells == 0 && done.report.moved_mesh_vertices == 0);
+    }
 }
