@@ -138,11 +138,17 @@
 /* Where triangles of an arrangement meet. ids: three triangles; or one at an edge, one that it crosses, and -1 */
 #define LAP_VERTEX_TRIANGLES 4
 
+/* A point of a network's domain where functions vanish (materials are equal). ids: the network's vertex, -1, -1 */
+#define LAP_VERTEX_LEVEL 5
+
 /* A face that lies on a triangle of the input mesh. */
 #define LAP_SUPPORT_TRIANGLE 0
 
 /* A face that lies on a plane. */
 #define LAP_SUPPORT_PLANE 1
+
+/* A polygon of a network. */
+#define LAP_SUPPORT_LEVEL 2
 
 /* Faces with holes: one polygon per loop. */
 #define LAP_FACES_HOLES 0
@@ -513,8 +519,8 @@ typedef struct lap_network_options {
     /* How regions are found: LAP_REGIONS_AUTOMATIC, the default, or LAP_REGIONS_CLASSES. */
     int32_t regions;
     /*
-     Nonzero: keep a copy of the values and of the mesh, which lap_network_vertex_exact and lap_network_check need. 0, the
-     default: do not.
+     Nonzero: keep a copy of the values and of the mesh, which lap_network_vertex_exact, lap_network_region_ties,
+     lap_network_complex and lap_network_check need. 0, the default: do not.
      */
     int32_t keep_values;
 } lap_network_options;
@@ -1056,12 +1062,13 @@ int32_t lap_complex_faces(const struct lap_complex *complex,
                           const int32_t **corner_edges);
 
 /*
- What each face lies on. A face on both a triangle and a plane has the triangle as its support, and the plane as well.
+ What each face lies on. A face on both a triangle and a plane has the triangle as its support, and the plane as well; a face
+ of a network's complex is a polygon of the network or lies on a triangle of its domain's boundary.
 
  Outputs (each may be NULL; borrowed as the complex): count; kinds: count numbers LAP_SUPPORT_*; ids: count indices of
- triangles or planes, in the caller's numbering; planes: for each face the lowest plane that it lies on, -1 if none;
+ triangles, planes or polygons, in the caller's numbering; planes: for each face the lowest plane that it lies on, -1 if none;
  tags: for each face the tag of its triangle, 0 for faces on planes only and without tags. The normal of a face is
- that of its support: of the triangle, or (a, b, c) of the plane.
+ that of its support: of the triangle, (a, b, c) of the plane, or the polygon's.
 
  Errors: LAP_ERR_NULL_POINTER if complex is NULL. Threads: any. Cost: linear at the first call, then none.
  */
@@ -1198,7 +1205,7 @@ int32_t lap_complex_adjacency(const struct lap_complex *complex,
  The Euler characteristic of the complex and of the solid that it was made from; a correct complex has both equal.
  Vertices - edges + sum over faces of (1 - holes) - sum over cells of half the Euler characteristics of their shells (a
  vertex counts once per umbrella; where the tip of a void or of a dent touches a plane, the shells there count as
- joined by a tube).
+ joined by a tube). Of a network's complex they may differ where shells of one region touch in a point.
 
  Outputs: each may be NULL. Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_INCONSISTENT if half-faces do not pair
  up (input that intersects itself). Threads: any. Cost:
@@ -1291,7 +1298,7 @@ int32_t lap_cut_set_plane_ids(struct lap_context *context,
  corner 0, 1, 2 of a triangle; 3, 4, 5: on the side from corner 0, 1, 2 of a triangle to the next, and the smallest plane that
  crosses it there; 6: inside a triangle, on two planes; 7: on three planes.
 
- Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: linear at the first
+ Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_BAD_ARGUMENT for that of a network, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: linear at the first
  call, then none.
  */
 int32_t lap_complex_vertex_keys(const struct lap_complex *complex,
@@ -1304,7 +1311,7 @@ int32_t lap_complex_vertex_keys(const struct lap_complex *complex,
 
  Outputs (each may be NULL; borrowed as the complex): count; keys: 2 × count, the first number of a pair never negative.
 
- Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_INCONSISTENT for input that intersects itself,
+ Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_BAD_ARGUMENT for that of a network, LAP_ERR_INCONSISTENT for input that intersects itself,
  LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: linear at the first call, then none.
  */
 int32_t lap_complex_face_keys(const struct lap_complex *complex,
@@ -2095,6 +2102,25 @@ int32_t lap_simplex_offsets(const struct lap_simplex *simplex,
                             const int32_t **planes);
 
 /*
+ Where the complex of each simplex comes from: a look-up table (one or two functions, two or three materials), or construction.
+
+ Outputs (each may be NULL; borrowed until the handle is filled again or freed): count: the number of simplices; n_entries: how many entries the
+ tables have in all, complexes that no permutation of corners and no symmetry of functions makes alike; entries: count, the
+ entry of each simplex, -1 where it was constructed; corners: 4 × count, the simplex's corner for each of the entry's; functions: 3 × count, the
+ function (material) for each of the entry's; -1 where there is none; flips: a byte for each, bit k set where the entry's function k
+ has the opposite sign.
+
+ Errors: LAP_ERR_NULL_POINTER if simplex is NULL. Threads: any. Cost: some ten nanoseconds a simplex at the first call, then none.
+ */
+int32_t lap_simplex_tables(const struct lap_simplex *simplex,
+                           int64_t *count,
+                           int64_t *n_entries,
+                           const int32_t **entries,
+                           const int32_t **corners,
+                           const int32_t **functions,
+                           const uint8_t **flips);
+
+/*
  What each vertex is: the point of an open sub-simplex (corner, edge, triangle, tetrahedron; of dimension d) where some
  functions are zero, or some materials equal.
 
@@ -2619,8 +2645,8 @@ int32_t lap_network_region_signs(const struct lap_network *network,
                                  const int32_t **signs);
 
 /*
- The material of each region of an interface: the largest there, of equal ones the lowest. (Which materials are equal throughout a
- part of a simplex, lap_simplex_cell_materials tells of the values at its corners.)
+ The material of each region of an interface: the largest there, of equal ones the lowest. (Which others equal it throughout,
+ lap_network_region_ties tells.)
 
  Outputs (each may be NULL; borrowed until the network is freed): count: the number of regions; materials: count.
 
@@ -2629,6 +2655,42 @@ int32_t lap_network_region_signs(const struct lap_network *network,
 int32_t lap_network_region_materials(const struct lap_network *network,
                                      int64_t *count,
                                      const int32_t **materials);
+
+/*
+ The materials that are equal throughout each region of an interface: its owner, which is the lowest, and those that equal it at every node of every
+ simplex with a part of the region.
+
+ Outputs (each may be NULL; borrowed until the network is freed): count: the number of regions; offsets: count + 1; materials: those
+ of region r are materials[offsets[r]] up to, not including, materials[offsets[r + 1]], rising.
+
+ Errors: LAP_ERR_BAD_ARGUMENT for an arrangement, or if the network was made without keep_values; LAP_ERR_NULL_POINTER,
+ LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: at the first call linear in the simplices of regions with equal materials, then none.
+ */
+int32_t lap_network_region_ties(struct lap_context *context,
+                                const struct lap_network *network,
+                                int64_t *count,
+                                const int32_t **offsets,
+                                const int32_t **materials);
+
+/*
+ The regions of a network in three dimensions as volumes: a complex on which all functions for lap_complex work but those for keys (there are none:
+ LAP_ERR_BAD_ARGUMENT). Its mesh is the boundary of the domain, a triangle for each face of a tetrahedron on it.
+
+ Cells are the regions, in their order. Faces are the pieces that the network leaves of the boundary's triangles, by triangle,
+ then the polygons of the network, in their order: polygon p is face n_faces - n_polygons + p. A polygon with one region on both
+ sides has one cell twice. Vertices are the nodes on the boundary (LAP_VERTEX_MESH, with their numbers as nodes), rising, then the
+ network's other vertices (LAP_VERTEX_LEVEL), rising. Volumes, moments and coordinates are exact as for all complexes.
+
+ complex: borrowed until the network is freed; do not free it.
+
+ Errors: LAP_ERR_BAD_ARGUMENT in two dimensions, or if the network was made without keep_values; LAP_ERR_BAD_MESH with LAP_DEFECT_EMPTY
+ for a domain without tetrahedra, or LAP_DEFECT_DUPLICATE_VERTEX where two nodes on its boundary are in one place;
+ LAP_ERR_TOO_LARGE, LAP_ERR_NULL_POINTER, LAP_ERR_CANCELLED, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: at the first call linear in the
+ network and the boundary, with a sort of all edges, then none. Memory: some 300 bytes a vertex and 250 a polygon.
+ */
+int32_t lap_network_complex(struct lap_context *context,
+                            const struct lap_network *network,
+                            const struct lap_complex **complex);
 
 /*
  All polygons as triangles, without new vertices; in two dimensions there are none.

@@ -1157,6 +1157,22 @@ public:
         check(lap_simplex_counts(get(), &n.simplices, &n.vertices, &n.edges, &n.faces, &n.cells));
         return n;
     }
+    /* Entries of look-up tables: the corner and the function (with signs changed by bits of flips) for each of the entry's; -1: none. */
+    struct tables_t {
+        std::int64_t entries_in_all = 0;
+        view<std::int32_t> entries;
+        groups<std::int32_t, 4> corners;
+        groups<std::int32_t, 3> functions;
+        view<std::uint8_t> flips;
+    };
+    tables_t tables() const
+    {
+        tables_t t;
+        check(lap_simplex_tables(get(), &t.entries.count, &t.entries_in_all, &t.entries.data, &t.corners.data, &t.functions.data,
+                                 &t.flips.data));
+        t.corners.count = t.functions.count = t.flips.count = t.entries.count;
+        return t;
+    }
     offsets_t offsets() const
     {
         offsets_t o;
@@ -1558,7 +1574,20 @@ public:
         t.polygons.count = t.vertices.count;
         return t;
     }
-    /* These two need options with keep_values. */
+    /* These need options with keep_values. */
+    rows<std::int32_t> region_ties(context &with) const
+    {
+        rows<std::int32_t> t;
+        with.run(lap_network_region_ties(with.get(), get(), &t.count, &t.offsets, &t.items));
+        return t;
+    }
+    /* The regions as volumes, borrowed from this network. */
+    class complex complex(context &with) const
+    {
+        const lap_complex *borrowed = nullptr;
+        with.run(lap_network_complex(with.get(), get(), &borrowed));
+        return lapidary::complex(borrowed);
+    }
     std::array<std::string, 3> exact_vertex(context &with, std::int32_t vertex) const
     {
         const char *x = "", *y = "", *z = "";

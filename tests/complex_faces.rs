@@ -25,6 +25,7 @@ fn area(c: &Complex, f: FaceId, [a, b, d]: [VertexId; 3]) -> Area {
             let k = c.mesh.corners(t).map(point);
             cross(&minus(&k[1], &k[0]), &minus(&k[2], &k[0]))
         }
+        lapidary::complex::SupportId::Level(_) => unreachable!("a level in a cut by planes"),
     };
     dot(&n, &cross(&minus(&b, &a), &minus(&d, &a)))
 }

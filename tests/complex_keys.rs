@@ -375,6 +375,7 @@ fn layout() {
                 assert!((12..44).contains(&tag) || (56..92).contains(&tag), "face {f}: {tag}");
                 assert_eq!(ids[0], u64::from(p.0));
             }
+            SupportId::Level(_) => unreachable!("a level in a cut by planes"),
         }
     }
     assert!(of_face.iter().any(|k| (16..32).contains(&unpack(*k).0)));

@@ -226,8 +226,9 @@ fn points_next_to_their_rounded_selves() {
 }
 
 fn some_direction(r: &mut Random, kind: usize) -> Direction {
-    match r.below(3) {
+    match r.below(4) {
         0 => Direction::Plane(normal(r, kind)),
+        3 => Direction::Gradient(reference::gradient(r, kind)),
         1 => Direction::Triangle(triangle(r, kind)),
         _ => Direction::Between(vector(r, kind), vector(r, kind)),
     }

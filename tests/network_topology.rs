@@ -12,6 +12,7 @@ use lapidary::network::csg::{Boundary, Choice, boundary, choose};
 use lapidary::network::local::{Local, Setting};
 use lapidary::network::regions::Method;
 use lapidary::network::simplex::{self, FaceSupport, LocalCell, LocalFunction, Scratch, SimplexComplex};
+use lapidary::network::ties::tied_materials;
 use lapidary::network::topology::{Topology, find_topology};
 use lapidary::network::{BoxGrid, Domain, Kind, Network, TetMesh, Values, extract};
 use std::collections::HashMap;
@@ -502,4 +503,55 @@ fn threads_do_not_matter() {
         let one = on(1);
         assert!(one == on(2) && one == on(8));
     }
+}
+
+/// The tied set of each region by its definition, from all cells of all simplices.
+fn expected_ties(domain: &Domain, values: &Values, groups: &Grouping) -> Vec<(i32, Vec<u32>)> {
+    let mut all: Vec<Option<(i32, Vec<u32>)>> = vec![None; groups.count];
+    for t in 0..domain.tet_count() {
+        let corners = domain.corners(TetId::of(t));
+        let corners = &corners[..=domain.dim()];
+        for c in groups.first[t]..groups.first[t + 1] {
+            let owner = groups.labels[c][0] as u32;
+            let equal =
+                |f: u32| corners.iter().all(|&n| values.at(FunctionId(f), n) == values.at(FunctionId(owner), n));
+            let slot = &mut all[groups.group[c] as usize];
+            match slot {
+                None => *slot = Some((owner as i32, (0..values.len() as u32).filter(|&f| equal(f)).collect())),
+                Some((_, tied)) => tied.retain(|&f| equal(f)),
+            }
+        }
+    }
+    let mut all: Vec<_> = all.into_iter().flatten().collect();
+    all.sort();
+    all
+}
+
+#[test]
+fn materials_that_are_equal_throughout() {
+    let mut random = Random(6);
+    let mut several = 0;
+    for round in 0..rounds(60) {
+        let grid = BoxGrid::new([[1, 1, 1], [2, 2, 2], [1, 3, 2], [3, 3, 3]][round % 4], None).unwrap();
+        let percent = [100, 70][random.below(2) as usize];
+        let mesh = part(&mut random, &grid, percent);
+        let domain = Domain::Mesh(mesh);
+        let n = 2 + random.below(2) as usize;
+        let mut arrays = random_values(&mut random, n, grid.node_count(), 1);
+        // A copy before or behind, and one that differs at a node or two only.
+        arrays.insert(random.below(2) as usize * n, arrays[0].clone());
+        let mut nearly = arrays[1].clone();
+        nearly[random.below(grid.node_count() as u64) as usize] += random.within(1);
+        arrays.push(nearly);
+        let (network, found) = compare(&domain, &arrays, Kind::Interface);
+        let functions = slices(&arrays);
+        let values = Values { functions: &functions, stride: 1 };
+        let ties = tied_materials(&Setting { network: &network, domain: &domain, values }, &found.regions).unwrap();
+        let row = |r: usize| (found.regions.materials[r].0 as i32, ties.row(r).iter().map(|f| f.0).collect());
+        let mut all: Vec<(i32, Vec<u32>)> = (0..found.regions.len()).map(row).collect();
+        all.sort();
+        several += all.iter().filter(|x| x.1.len() > 1).count();
+        assert_eq!(all, expected_ties(&domain, &values, &grouping(&domain, &values, Kind::Interface)));
+    }
+    assert!(several > 20);
 }

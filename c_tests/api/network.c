@@ -306,6 +306,110 @@ static void interface(lap_context *context)
     STATUS(LAP_ERR_BAD_ARGUMENT, lap_network_vertex_exact(context, network, 0, &x, NULL, NULL));
     CHECK(has_message(context));
     STATUS(LAP_ERR_BAD_ARGUMENT, lap_network_check(context, network));
+    STATUS(LAP_ERR_BAD_ARGUMENT, lap_network_region_ties(context, network, NULL, NULL, NULL));
+    STATUS(LAP_OK, lap_network_free(network));
+}
+
+/* Four materials in a cube: the first two and the last are equal; the third is larger where x > 1/2. */
+static void ties(lap_context *context)
+{
+    double values[32];
+    lap_network *network = NULL;
+    lap_network_options o;
+    int64_t count = 0, i;
+    const int32_t *offsets = NULL, *materials = NULL, *owners = NULL;
+
+    for (i = 0; i < 32; ++i) values[i] = i / 8 == 2 ? (double)(i % 2) : 0.5;
+    STATUS(LAP_OK, lap_network_options_init(&o, (int32_t)sizeof o));
+    o.kind = LAP_NETWORK_INTERFACE;
+    o.keep_values = 1;
+    STATUS_IN(context, LAP_OK, lap_network_new_box(context, cube, NULL, 4, values, 8, 1, &o, &network));
+    STATUS_IN(context, LAP_OK, lap_network_region_ties(context, network, NULL, NULL, NULL));
+    STATUS_IN(context, LAP_OK, lap_network_region_ties(context, network, &count, &offsets, &materials));
+    STATUS(LAP_OK, lap_network_region_materials(network, NULL, &owners));
+    CHECK(count == 2 && is_csr(offsets, 2, 4) && owners[0] + owners[1] == 2);
+    for (i = 0; i < 2; ++i) {
+        const int32_t *row = materials + offsets[i];
+        if (owners[i] == 2) CHECK(offsets[i + 1] - offsets[i] == 1 && row[0] == 2);
+        if (owners[i] == 0) CHECK(offsets[i + 1] - offsets[i] == 3 && row[0] == 0 && row[1] == 1 && row[2] == 3);
+    }
+    STATUS(LAP_ERR_NULL_POINTER, lap_network_region_ties(context, NULL, &count, &offsets, &materials));
+    STATUS(LAP_OK, lap_network_free(network));
+    network = make(context, LAP_NETWORK_ARRANGEMENT, 1);
+    STATUS(LAP_ERR_BAD_ARGUMENT, lap_network_region_ties(context, network, NULL, NULL, NULL));
+    CHECK(has_message(context));
+    STATUS(LAP_OK, lap_network_free(network));
+}
+
+/* The four quarters of a cube as volumes. */
+static void volumes(lap_context *context)
+{
+    const double twice_xyz[18] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, -1, 0, 1, 0};
+    const int32_t twice[8] = {0, 1, 2, 3, 0, 1, 5, 4};
+    const double ones[6] = {1, 1, 1, 1, 1, 1};
+    const double xy[6] = {0, 0, 1, 0, 0, 1};
+    const int32_t triangle[3] = {0, 1, 2};
+    lap_network *network = make(context, LAP_NETWORK_ARRANGEMENT, 1);
+    lap_network_options o;
+    const lap_complex *complex = NULL, *again = NULL;
+    int64_t polygons = 0, vertices = 0, count = 0, faces = 0, cells = 0, i, f, n = 0;
+    const int32_t *kinds = NULL, *ids = NULL, *shells = NULL, *face_cells = NULL;
+    const double *volumes_of = NULL, *centroids = NULL;
+    int64_t euler[2] = {0, 0};
+    const char *text = NULL;
+
+    STATUS_IN(context, LAP_OK, lap_network_complex(context, network, &complex));
+    STATUS_IN(context, LAP_OK, lap_network_complex(context, network, &again));
+    CHECK(complex != NULL && complex == again);
+    STATUS_IN(context, LAP_OK, lap_complex_check(context, complex));
+    STATUS(LAP_OK, lap_network_counts(network, &vertices, NULL, &polygons, NULL, NULL, NULL, NULL, NULL, NULL));
+    STATUS(LAP_OK, lap_complex_counts(complex, &count, NULL, &faces, &cells, NULL, NULL, NULL));
+    CHECK(cells == 4 && count == 8 + vertices);
+    STATUS(LAP_OK, lap_complex_vertex_origins(complex, &count, &kinds, &ids));
+    for (i = 0; i < count; ++i) {
+        CHECK(kinds[i] == (i < 8 ? LAP_VERTEX_MESH : LAP_VERTEX_LEVEL));
+        CHECK(ids[3 * i] == (i < 8 ? i : i - 8) && ids[3 * i + 1] == -1);
+    }
+    STATUS(LAP_OK, lap_complex_face_supports(complex, &count, &kinds, &ids, NULL, NULL));
+    STATUS(LAP_OK, lap_complex_face_cells(complex, NULL, &face_cells));
+    for (f = 0; f < faces; ++f) {
+        const int64_t p = f - (faces - polygons);
+        CHECK(kinds[f] == (p < 0 ? LAP_SUPPORT_TRIANGLE : LAP_SUPPORT_LEVEL) && (p < 0 ? ids[f] < 12 : ids[f] == p));
+        CHECK((face_cells[2 * f + 1] == -1) == (p < 0));
+    }
+    STATUS(LAP_OK, lap_complex_cells(complex, &count, &shells, NULL, NULL));
+    CHECK(count == 4 && shells[4] == 4);
+    STATUS(LAP_OK, lap_complex_cell_moments(complex, &count, &volumes_of, &centroids, NULL));
+    for (i = 0; i < 4; ++i) {
+        CHECK(volumes_of[i] == 0.25 && centroids[3 * i + 2] == 0.5);
+        for (f = 0; f < 2; ++f) n += centroids[3 * i + f] == 0.25 || centroids[3 * i + f] == 0.75;
+        STATUS_IN(context, LAP_OK, lap_complex_cell_volume_exact(context, complex, (int32_t)i, &text));
+        CHECK(strcmp(text, "1/4") == 0);
+    }
+    CHECK(n == 8);
+    STATUS(LAP_OK, lap_complex_euler(complex, &euler[0], &euler[1]));
+    CHECK(euler[0] == 1 && euler[1] == 1);
+    STATUS(LAP_ERR_BAD_ARGUMENT, lap_complex_vertex_keys(complex, NULL, NULL));
+    STATUS(LAP_ERR_BAD_ARGUMENT, lap_complex_face_keys(complex, NULL, NULL));
+    STATUS(LAP_ERR_NULL_POINTER, lap_network_complex(context, network, NULL));
+    STATUS(LAP_OK, lap_network_free(network));
+
+    STATUS(LAP_ERR_NULL_POINTER, lap_network_complex(context, NULL, &complex));
+    CHECK(complex == NULL);
+    network = make(context, LAP_NETWORK_ARRANGEMENT, 0);
+    STATUS(LAP_ERR_BAD_ARGUMENT, lap_network_complex(context, network, &complex));
+    CHECK(complex == NULL && has_message(context));
+    STATUS(LAP_OK, lap_network_free(network));
+    STATUS(LAP_OK, lap_network_options_init(&o, (int32_t)sizeof o));
+    o.keep_values = 1;
+    STATUS_IN(context, LAP_OK, lap_network_new_triangles(context, 3, xy, 1, triangle, 1, ones, 3, 1, &o, &network));
+    STATUS(LAP_ERR_BAD_ARGUMENT, lap_network_complex(context, network, &complex));
+    CHECK(complex == NULL && has_message(context));
+    STATUS(LAP_OK, lap_network_free(network));
+    /* Nodes 2 and 5 are in one place. */
+    STATUS_IN(context, LAP_OK, lap_network_new_tets(context, 6, twice_xyz, 2, twice, 1, ones, 6, 1, &o, &network));
+    STATUS(LAP_ERR_BAD_MESH, lap_network_complex(context, network, &complex));
+    CHECK(complex == NULL && has_message(context));
     STATUS(LAP_OK, lap_network_free(network));
 }
 
@@ -387,6 +491,8 @@ void test_network(void)
     bad_meshes(context);
     crossing_planes(context);
     interface(context);
+    ties(context);
+    volumes(context);
     meshes(context);
     null_pointers();
     STATUS(LAP_OK, lap_context_free(context));

@@ -272,6 +272,49 @@ static int says(lap_context *context, const char *part)
     return message != NULL && strstr(message, part) != NULL;
 }
 
+/* The same complex in other orders of corners and functions, and with other signs: one entry. Four functions are constructed. */
+static void table_entries(lap_context *context)
+{
+    /* Function 0 cuts off corner 0, function 1 corner 1; then corners 2 and 3, exchanged and with signs changed; then another one. */
+    const double two[24] = {-1, 1, 1, 1, 2, -1, 2, 2, 3, 3, 3, -1, -1, -1, 1, -1, -1, 1, -1, 1, 1, 1, 1, 1};
+    const double triangle[6] = {2, 1, 0, 0, 1, 2};
+    const double four[16] = {1, -1, 1, 1, 1, 1, -1, 1, 1, 1, 1, -1, -1, 1, 1, 1};
+    lap_simplex *simplex = filled(context, LAP_SIMPLEX_ARRANGEMENT, 3, 3, 2, two);
+    int64_t count = -1, n_entries = 0;
+    const int32_t *entries = NULL, *corners = NULL, *functions = NULL, *cells = NULL;
+    const uint8_t *flips = NULL;
+    int32_t i, k, s;
+
+    STATUS(LAP_OK, lap_simplex_tables(simplex, NULL, NULL, NULL, NULL, NULL, NULL));
+    STATUS(LAP_OK, lap_simplex_tables(simplex, &count, &n_entries, &entries, &corners, &functions, &flips));
+    STATUS(LAP_OK, lap_simplex_offsets(simplex, NULL, NULL, NULL, NULL, &cells, NULL));
+    CHECK(count == 3 && n_entries > 100 && cells[1] == 3 && cells[2] == 6 && cells[3] == 8);
+    CHECK(entries[0] >= 0 && entries[0] < n_entries && entries[0] == entries[1] && entries[2] != entries[0]);
+    for (s = 0; s < 3; ++s) {
+        for (i = k = 0; i < 4; ++i) k |= 1 << corners[4 * s + i];
+        CHECK(k == 15 && functions[3 * s] + functions[3 * s + 1] == 1 && functions[3 * s + 2] == -1 && flips[s] < 4);
+    }
+    /* Carried back to the entry's corners and functions, values of both have the same signs. */
+    for (k = 0; k < 2; ++k) {
+        for (i = 0; i < 4; ++i) {
+            double x[2];
+            for (s = 0; s < 2; ++s) {
+                x[s] = two[8 * s + 4 * functions[3 * s + k] + corners[4 * s + i]];
+                if (flips[s] >> k & 1) x[s] = -x[s];
+            }
+            CHECK((x[0] > 0) == (x[1] > 0));
+        }
+    }
+    STATUS_IN(context, LAP_OK, lap_simplex_compute(context, simplex, LAP_SIMPLEX_INTERFACE, 2, 1, 2, triangle));
+    STATUS(LAP_OK, lap_simplex_tables(simplex, &count, NULL, &entries, &corners, &functions, &flips));
+    CHECK(count == 1 && entries[0] >= 0 && corners[0] + corners[1] + corners[2] == 3 && corners[3] == -1 && flips[0] == 0);
+    STATUS_IN(context, LAP_OK, lap_simplex_compute(context, simplex, LAP_SIMPLEX_ARRANGEMENT, 3, 1, 4, four));
+    STATUS(LAP_OK, lap_simplex_tables(simplex, &count, NULL, &entries, &corners, &functions, &flips));
+    CHECK(count == 1 && entries[0] == -1 && corners[0] == -1 && functions[0] == -1 && flips[0] == 0);
+    STATUS(LAP_ERR_NULL_POINTER, lap_simplex_tables(NULL, &count, NULL, NULL, NULL, NULL, NULL));
+    STATUS(LAP_OK, lap_simplex_free(simplex));
+}
+
 static void arguments(lap_context *context)
 {
     enum { IA = LAP_SIMPLEX_ARRANGEMENT, MI = LAP_SIMPLEX_INTERFACE };
@@ -364,6 +407,7 @@ void test_simplex(void)
     batch(LAP_SIMPLEX_INTERFACE, 1);
     batch(LAP_SIMPLEX_INTERFACE, 3);
     ends_of_the_range(context);
+    table_entries(context);
     arguments(context);
     STATUS(LAP_OK, lap_context_free(context));
 }

@@ -100,7 +100,7 @@ pub unsafe extern "C" fn lap_arrangement_vertex_origins(
         let (a, soup) = (&arrangement.data, &arrangement.data.resolved.soup);
         let triangle =
             |t: TriangleId| (arrangement.first_triangle[soup.operand(t).at()] + i64::from(soup.source[t.at()])) as i32;
-        let number = |v: usize| number_origin(&soup.mesh, triangle, &a.origin(VertexId::of(v)));
+        let number = |v: usize| number_origin(&soup.mesh, triangle, |_| -1, &a.origin(VertexId::of(v)));
         let all = || (0..a.vertex_count()).map(number).unzip();
         let (of_kind, of_ids) = on_demand(arrangement.threads, &arrangement.views.origins, all)?;
         unsafe {

@@ -19,11 +19,15 @@ pub const LAP_VERTEX_TRIANGLE: i32 = 2;
 pub const LAP_VERTEX_PLANES: i32 = 3;
 /// Where triangles of an arrangement meet. ids: three triangles; or one at an edge, one that it crosses, and -1
 pub const LAP_VERTEX_TRIANGLES: i32 = 4;
+/// A point of a network's domain where functions vanish (materials are equal). ids: the network's vertex, -1, -1
+pub const LAP_VERTEX_LEVEL: i32 = 5;
 
 /// A face that lies on a triangle of the input mesh.
 pub const LAP_SUPPORT_TRIANGLE: i32 = 0;
 /// A face that lies on a plane.
 pub const LAP_SUPPORT_PLANE: i32 = 1;
+/// A polygon of a network.
+pub const LAP_SUPPORT_LEVEL: i32 = 2;
 
 /// Vertices, edges, faces and cells. Belongs to the handle that it was borrowed from. Ids are positions in the
 /// arrays, from 0. Immutable: a const handle may be used from many threads at once; what is computed on demand is
@@ -153,11 +157,18 @@ pub unsafe extern "C" fn lap_complex_vertex_origins(
 }
 
 fn origins(c: &Complex) -> (Vec<i32>, Vec<[i32; 3]>) {
-    c.origins.iter().map(|origin| number_origin(&c.mesh, |t| t.0 as i32, origin)).unzip()
+    let level = |i: u32| c.levels.vertices[i as usize].0 as i32;
+    c.origins.iter().map(|origin| number_origin(&c.mesh, |t| t.0 as i32, level, origin)).unzip()
 }
 
-/// An origin as numbers for C: LAP_VERTEX_*, and ids. `triangle` numbers the triangles of the mesh for the caller.
-pub fn number_origin(mesh: &TriMesh, triangle: impl Fn(TriangleId) -> i32, origin: &Origin) -> (i32, [i32; 3]) {
+/// An origin as numbers for C: LAP_VERTEX_*, and ids. `triangle` numbers the triangles of the mesh for the caller, `level` the
+/// vertices of a network.
+pub fn number_origin(
+    mesh: &TriMesh,
+    triangle: impl Fn(TriangleId) -> i32,
+    level: impl Fn(u32) -> i32,
+    origin: &Origin,
+) -> (i32, [i32; 3]) {
     let source = |v: VertexId| mesh.vertex_source[v.at()] as i32;
     let first = |e: EdgeId| mesh.edge_uses.row(e).first().map_or(-1, |u| triangle(u.triangle));
     match *origin {
@@ -172,6 +183,7 @@ pub fn number_origin(mesh: &TriMesh, triangle: impl Fn(TriangleId) -> i32, origi
         Origin::EdgeTriangle(e, t) => (LAP_VERTEX_TRIANGLES, [first(e), triangle(t), -1]),
         Origin::Edges(e, f) => (LAP_VERTEX_TRIANGLES, [first(e), first(f), -1]),
         Origin::Triangles(t, u, v) => (LAP_VERTEX_TRIANGLES, [t, u, v].map(triangle)),
+        Origin::Level(i) => (LAP_VERTEX_LEVEL, [level(i), -1, -1]),
     }
 }
 
@@ -252,12 +264,13 @@ pub unsafe extern "C" fn lap_complex_faces(
     })
 }
 
-/// What each face lies on. A face on both a triangle and a plane has the triangle as its support, and the plane as well.
+/// What each face lies on. A face on both a triangle and a plane has the triangle as its support, and the plane as well; a face
+/// of a network's complex is a polygon of the network or lies on a triangle of its domain's boundary.
 ///
 /// Outputs (each may be NULL; borrowed as the complex): count; kinds: count numbers LAP_SUPPORT_*; ids: count indices of
-/// triangles or planes, in the caller's numbering; planes: for each face the lowest plane that it lies on, -1 if none;
+/// triangles, planes or polygons, in the caller's numbering; planes: for each face the lowest plane that it lies on, -1 if none;
 /// tags: for each face the tag of its triangle, 0 for faces on planes only and without tags. The normal of a face is
-/// that of its support: of the triangle, or (a, b, c) of the plane.
+/// that of its support: of the triangle, (a, b, c) of the plane, or the polygon's.
 ///
 /// Errors: LAP_ERR_NULL_POINTER if complex is NULL. Threads: any. Cost: linear at the first call, then none.
 #[unsafe(no_mangle)]
@@ -275,6 +288,7 @@ pub unsafe extern "C" fn lap_complex_face_supports(
             let number = |support: &SupportId| match *support {
                 SupportId::Triangle(t) => (LAP_SUPPORT_TRIANGLE, t.0 as i32),
                 SupportId::Plane(p) => (LAP_SUPPORT_PLANE, p.0 as i32),
+                SupportId::Level(p) => (LAP_SUPPORT_LEVEL, p.0 as i32),
             };
             complex.data.face_support.iter().map(number).unzip()
         });

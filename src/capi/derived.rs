@@ -197,7 +197,7 @@ pub unsafe extern "C" fn lap_complex_adjacency(
 /// The Euler characteristic of the complex and of the solid that it was made from; a correct complex has both equal.
 /// Vertices - edges + sum over faces of (1 - holes) - sum over cells of half the Euler characteristics of their shells (a
 /// vertex counts once per umbrella; where the tip of a void or of a dent touches a plane, the shells there count as
-/// joined by a tube).
+/// joined by a tube). Of a network's complex they may differ where shells of one region touch in a point.
 ///
 /// Outputs: each may be NULL. Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_INCONSISTENT if half-faces do not pair
 /// up (input that intersects itself). Threads: any. Cost:

@@ -37,6 +37,9 @@ struct Keys {
 }
 
 fn make(c: &Complex, keyed: &Keyed) -> Result<Keys, Status> {
+    if !c.levels.points.is_empty() || !c.levels.supports.is_empty() {
+        return Err(Status::BadArgument);
+    }
     let ids = GlobalIds {
         triangles: keyed.triangles.as_deref(),
         planes: keyed.planes.as_ref().map(|p| &p.0[..]),
@@ -118,7 +121,7 @@ pub unsafe extern "C" fn lap_cut_set_plane_ids(
 /// corner 0, 1, 2 of a triangle; 3, 4, 5: on the side from corner 0, 1, 2 of a triangle to the next, and the smallest plane that
 /// crosses it there; 6: inside a triangle, on two planes; 7: on three planes.
 ///
-/// Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: linear at the first
+/// Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_BAD_ARGUMENT for that of a network, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: linear at the first
 /// call, then none.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn lap_complex_vertex_keys(
@@ -141,7 +144,7 @@ pub unsafe extern "C" fn lap_complex_vertex_keys(
 ///
 /// Outputs (each may be NULL; borrowed as the complex): count; keys: 2 × count, the first number of a pair never negative.
 ///
-/// Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_INCONSISTENT for input that intersects itself,
+/// Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_BAD_ARGUMENT for that of a network, LAP_ERR_INCONSISTENT for input that intersects itself,
 /// LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: linear at the first call, then none.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn lap_complex_face_keys(

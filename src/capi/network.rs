@@ -86,8 +86,8 @@ pub struct lap_network_options {
     pub kind: i32,
     /// How regions are found: LAP_REGIONS_AUTOMATIC, the default, or LAP_REGIONS_CLASSES.
     pub regions: i32,
-    /// Nonzero: keep a copy of the values and of the mesh, which lap_network_vertex_exact and lap_network_check need. 0, the
-    /// default: do not.
+    /// Nonzero: keep a copy of the values and of the mesh, which lap_network_vertex_exact, lap_network_region_ties,
+    /// lap_network_complex and lap_network_check need. 0, the default: do not.
     pub keep_values: i32,
 }
 
@@ -355,21 +355,23 @@ pub unsafe extern "C" fn lap_network_free(network: *mut lap_network) -> i32 {
 pub unsafe extern "C" fn lap_network_check(context: *mut lap_context, network: *const lap_network) -> i32 {
     with_context(context, |state, host| {
         let network = unsafe { handle(network) }.map_err(null_network)?;
-        let source = network.source()?;
-        state.run(host, |_| {
-            let functions: Vec<&[f64]> = source.values.iter().map(Vec::as_slice).collect();
-            let values = Values { functions: &functions, stride: 1 };
-            network.data.check(&source.domain, &values).map_err(Error::inconsistent)?;
-            let setting = Setting { network: &network.data, domain: &source.domain, values };
-            network.topology.check(&setting).map_err(Error::inconsistent)
+        network.with_setting(|setting| {
+            state.run(host, |_| {
+                setting.network.check(setting.domain, &setting.values).map_err(Error::inconsistent)?;
+                network.topology.check(setting).map_err(Error::inconsistent)
+            })
         })
     })
 }
 
 impl lap_network {
-    pub fn source(&self) -> Result<&Source, Error> {
+    /// Calls `body` with what the network was made from, if that was kept.
+    pub fn with_setting<R>(&self, body: impl FnOnce(&Setting) -> Result<R, Error>) -> Result<R, Error> {
         let missing = || Error::new(Status::BadArgument, "the network was made without keep_values");
-        self.source.as_ref().ok_or_else(missing)
+        let source = self.source.as_ref().ok_or_else(missing)?;
+        let functions: Vec<&[f64]> = source.values.iter().map(Vec::as_slice).collect();
+        let values = Values { functions: &functions, stride: 1 };
+        body(&Setting { network: &self.data, domain: &source.domain, values })
     }
 }
 

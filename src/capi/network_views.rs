@@ -1,15 +1,18 @@
 //! The noun `lap_network`, second part: vertices, polygons and what they form, as borrowed views.
 
+use super::complex::lap_complex;
 use super::context::{c_string, lap_context, with_context};
 use super::derived::on_demand;
 use super::guard::guard;
 use super::network::{lap_network, null_network};
 use super::view::{address, handle, index, put};
-use crate::base::{Csr, Error, PolygonId, Status, VertexId};
+use crate::base::{Csr, Error, FunctionId, PolygonId, Status, VertexId};
 use crate::network::csg::triangles;
 use crate::network::exact_vertices::exact_vertex;
+use crate::network::ties::tied_materials;
 use crate::network::topology::Topology;
-use crate::network::{Kind, Network, Values};
+use crate::network::volumes::volumes;
+use crate::network::{Kind, Network};
 use std::ffi::c_char;
 use std::sync::OnceLock;
 
@@ -24,6 +27,8 @@ pub struct Views {
     patch_polygons: OnceLock<Csr<PolygonId>>,
     turned: OnceLock<Vec<u8>>,
     triangles: OnceLock<(Vec<VertexId>, Vec<PolygonId>)>,
+    ties: OnceLock<Csr<FunctionId>>,
+    complex: OnceLock<lap_complex>,
 }
 
 impl Views {
@@ -39,6 +44,8 @@ impl Views {
             patch_polygons: OnceLock::new(),
             turned: OnceLock::new(),
             triangles: OnceLock::new(),
+            ties: OnceLock::new(),
+            complex: OnceLock::new(),
         }
     }
 }
@@ -490,8 +497,8 @@ pub unsafe extern "C" fn lap_network_region_signs(
     })
 }
 
-/// The material of each region of an interface: the largest there, of equal ones the lowest. (Which materials are equal throughout a
-/// part of a simplex, lap_simplex_cell_materials tells of the values at its corners.)
+/// The material of each region of an interface: the largest there, of equal ones the lowest. (Which others equal it throughout,
+/// lap_network_region_ties tells.)
 ///
 /// Outputs (each may be NULL; borrowed until the network is freed): count: the number of regions; materials: count.
 ///
@@ -511,6 +518,82 @@ pub unsafe extern "C" fn lap_network_region_materials(
         unsafe {
             put(count, regions.len() as i64);
             put(materials, address(&regions.materials));
+        }
+        Ok(())
+    })
+}
+
+/// The materials that are equal throughout each region of an interface: its owner, which is the lowest, and those that equal it at every node of every
+/// simplex with a part of the region.
+///
+/// Outputs (each may be NULL; borrowed until the network is freed): count: the number of regions; offsets: count + 1; materials: those
+/// of region r are materials[offsets[r]] up to, not including, materials[offsets[r + 1]], rising.
+///
+/// Errors: LAP_ERR_BAD_ARGUMENT for an arrangement, or if the network was made without keep_values; LAP_ERR_NULL_POINTER,
+/// LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: at the first call linear in the simplices of regions with equal materials, then none.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn lap_network_region_ties(
+    context: *mut lap_context,
+    network: *const lap_network,
+    count: *mut i64,
+    offsets: *mut *const i32,
+    materials: *mut *const i32,
+) -> i32 {
+    with_context(context, |state, host| {
+        let network = unsafe { handle(network) }.map_err(null_network)?;
+        let slot = &network.views.ties;
+        if slot.get().is_none() {
+            let found = network
+                .with_setting(|setting| state.run(host, |_| tied_materials(setting, &network.topology.regions)))?;
+            slot.get_or_init(|| found);
+        }
+        if let Some(ties) = slot.get() {
+            unsafe {
+                put(count, ties.len() as i64);
+                put(offsets, address(&ties.offsets));
+                put(materials, address(&ties.items));
+            }
+        }
+        Ok(())
+    })
+}
+
+/// The regions of a network in three dimensions as volumes: a complex on which all functions for lap_complex work but those for keys (there are none:
+/// LAP_ERR_BAD_ARGUMENT). Its mesh is the boundary of the domain, a triangle for each face of a tetrahedron on it.
+///
+/// Cells are the regions, in their order. Faces are the pieces that the network leaves of the boundary's triangles, by triangle,
+/// then the polygons of the network, in their order: polygon p is face n_faces - n_polygons + p. A polygon with one region on both
+/// sides has one cell twice. Vertices are the nodes on the boundary (LAP_VERTEX_MESH, with their numbers as nodes), rising, then the
+/// network's other vertices (LAP_VERTEX_LEVEL), rising. Volumes, moments and coordinates are exact as for all complexes.
+///
+/// complex: borrowed until the network is freed; do not free it.
+///
+/// Errors: LAP_ERR_BAD_ARGUMENT in two dimensions, or if the network was made without keep_values; LAP_ERR_BAD_MESH with LAP_DEFECT_EMPTY
+/// for a domain without tetrahedra, or LAP_DEFECT_DUPLICATE_VERTEX where two nodes on its boundary are in one place;
+/// LAP_ERR_TOO_LARGE, LAP_ERR_NULL_POINTER, LAP_ERR_CANCELLED, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: at the first call linear in the
+/// network and the boundary, with a sort of all edges, then none. Memory: some 300 bytes a vertex and 250 a polygon.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn lap_network_complex(
+    context: *mut lap_context,
+    network: *const lap_network,
+    complex: *mut *const lap_complex,
+) -> i32 {
+    with_context(context, |state, host| {
+        if complex.is_null() {
+            return Err(Error::new(Status::NullPointer, "complex is NULL"));
+        }
+        unsafe { put(complex, std::ptr::null()) };
+        let network = unsafe { handle(network) }.map_err(null_network)?;
+        let slot = &network.views.complex;
+        if slot.get().is_none() {
+            let made =
+                network.with_setting(|setting| state.run(host, |run| volumes(setting, &network.topology, run)))?;
+            let made = lap_complex::new(made, network.threads)
+                .map_err(|status| Error::new(status, "the complex has more elements than 32-bit indices can number"))?;
+            slot.get_or_init(|| made);
+        }
+        if let Some(made) = slot.get() {
+            unsafe { put(complex, std::ptr::from_ref(made)) };
         }
         Ok(())
     })
@@ -559,12 +642,9 @@ pub unsafe extern "C" fn lap_network_vertex_exact(
 ) -> i32 {
     with_context(context, |state, _| {
         let network = unsafe { handle(network) }.map_err(null_network)?;
-        let source = network.source()?;
         let none = |status| Error::new(status, format!("there is no vertex {vertex}"));
         let v = VertexId::of(index(vertex, network.data.vertex_count()).map_err(none)?);
-        let functions: Vec<&[f64]> = source.values.iter().map(Vec::as_slice).collect();
-        let values = Values { functions: &functions, stride: 1 };
-        let exact = exact_vertex(&network.data, &source.domain, &values, v);
+        let exact = network.with_setting(|s| Ok(exact_vertex(s.network, s.domain, &s.values, v)))?;
         for (to, coordinate) in state.strings.iter_mut().zip(&exact) {
             *to = c_string(&coordinate.to_string());
         }

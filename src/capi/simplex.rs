@@ -6,7 +6,9 @@ use super::guard::guard;
 use super::view::{address, handle, handle_mut, index, input, into_handle, put};
 use crate::base::{Error, Status};
 use crate::network::simplex::batch::{Order, SimplexBatch};
-use crate::network::simplex::{FaceSupport, Kind, LocalCell, LocalVertex, exact_values};
+use crate::network::simplex::{
+    ENTRIES, FaceSupport, Kind, LocalCell, LocalVertex, PERMUTATIONS, SYMMETRIES, exact_values,
+};
 use std::ffi::c_char;
 use std::sync::OnceLock;
 
@@ -47,6 +49,16 @@ pub struct lap_simplex {
     batch: SimplexBatch,
     supports: OnceLock<(Vec<i32>, Vec<[i32; 2]>)>,
     signs: OnceLock<Vec<i32>>,
+    tables: OnceLock<Tables>,
+}
+
+/// Of each simplex.
+#[derive(Default)]
+struct Tables {
+    entries: Vec<i32>,
+    corners: Vec<[i32; 4]>,
+    functions: Vec<[i32; 3]>,
+    flips: Vec<u8>,
 }
 
 const _: () = {
@@ -112,6 +124,7 @@ pub unsafe extern "C" fn lap_simplex_compute(
         let simplex = unsafe { handle_mut(simplex) }.map_err(null_simplex)?;
         simplex.supports.take();
         simplex.signs.take();
+        simplex.tables.take();
         let batch = &mut simplex.batch;
         batch.forget();
         let order = unsafe { read_order(kind, dim, n_simplices, n_functions, values) }?;
@@ -211,6 +224,59 @@ pub unsafe extern "C" fn lap_simplex_offsets(
         }
         Ok(())
     })
+}
+
+/// Where the complex of each simplex comes from: a look-up table (one or two functions, two or three materials), or construction.
+///
+/// Outputs (each may be NULL; borrowed until the handle is filled again or freed): count: the number of simplices; n_entries: how many entries the
+/// tables have in all, complexes that no permutation of corners and no symmetry of functions makes alike; entries: count, the
+/// entry of each simplex, -1 where it was constructed; corners: 4 × count, the simplex's corner for each of the entry's; functions: 3 × count, the
+/// function (material) for each of the entry's; -1 where there is none; flips: a byte for each, bit k set where the entry's function k
+/// has the opposite sign.
+///
+/// Errors: LAP_ERR_NULL_POINTER if simplex is NULL. Threads: any. Cost: some ten nanoseconds a simplex at the first call, then none.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn lap_simplex_tables(
+    simplex: *const lap_simplex,
+    count: *mut i64,
+    n_entries: *mut i64,
+    entries: *mut *const i32,
+    corners: *mut *const i32,
+    functions: *mut *const i32,
+    flips: *mut *const u8,
+) -> i32 {
+    guard(|_| {
+        let simplex = unsafe { handle(simplex) }?;
+        let tables = simplex.tables.get_or_init(|| tables(&simplex.batch));
+        unsafe {
+            put(count, tables.entries.len() as i64);
+            put(n_entries, ENTRIES.len() as i64);
+            put(entries, address(&tables.entries));
+            put(corners, address(&tables.corners));
+            put(functions, address(&tables.functions));
+            put(flips, address(&tables.flips));
+        }
+        Ok(())
+    })
+}
+
+fn tables(batch: &SimplexBatch) -> Tables {
+    let mut tables = Tables::default();
+    for simplex in 0..batch.len() {
+        let (mut entry, mut corners, mut functions, mut flips) = (-1, [-1; 4], [-1; 3], 0);
+        if let Some(found) = batch.found(simplex) {
+            entry = found.entry.into();
+            let (permutation, symmetry) = (PERMUTATIONS[found.corners as usize], SYMMETRIES[found.functions as usize]);
+            (0..=batch.all.dim).for_each(|k| corners[k] = permutation[k].into());
+            (0..batch.all.functions).for_each(|k| functions[k] = symmetry.to[k].into());
+            flips = symmetry.flip;
+        }
+        tables.entries.push(entry);
+        tables.corners.push(corners);
+        tables.functions.push(functions);
+        tables.flips.push(flips);
+    }
+    tables
 }
 
 /// What each vertex is: the point of an open sub-simplex (corner, edge, triangle, tetrahedron; of dimension d) where some

@@ -9,7 +9,7 @@
 
 use super::adjacency::{adjacency, corner_faces, corner_nexts};
 use super::data::{Complex, HalfFace, Origin, SupportId};
-use super::euler::{euler_with, solid_euler};
+use super::euler::{euler_with, is_pinched, solid_euler};
 use super::exact_values;
 use crate::base::{CellId, Csr, EdgeId, FaceId, TriangleId, VertexId};
 use crate::exact::residue::point_residues;
@@ -26,8 +26,8 @@ fn ensure(holds: bool, message: impl FnOnce() -> String) -> Check {
 pub fn check(c: &Complex) -> Check {
     for (f, cells) in c.face_cells.iter().enumerate() {
         ensure(cells[0].is_some(), || format!("face {f}: no owner"))?;
-        let on_plane = matches!(c.face_support.get(f), Some(SupportId::Plane(_)));
-        ensure(!on_plane || cells[1].is_some(), || format!("face {f}: on a plane alone, with one cell"))?;
+        let within = matches!(c.face_support.get(f), Some(SupportId::Plane(_) | SupportId::Level(_)));
+        ensure(!within || cells[1].is_some(), || format!("face {f}: on a plane or level alone, with one cell"))?;
     }
     check_part(c)
 }
@@ -84,6 +84,7 @@ fn arrays(c: &Complex) -> Check {
     let known = |s: &SupportId| match s {
         SupportId::Triangle(t) => t.at() < c.mesh.triangles.len(),
         SupportId::Plane(p) => p.at() < c.planes.len(),
+        SupportId::Level(p) => p.at() < c.levels.supports.len(),
     };
     ensure(c.face_support.iter().all(known), || "a face's support out of range".into())
 }
@@ -103,6 +104,7 @@ fn vertices(c: &Complex) -> Check {
             Origin::EdgeTriangle(e, t) => e.at() < m.edges.len() && t.at() < m.triangles.len(),
             Origin::Edges(e, f) => e < f && f.at() < m.edges.len(),
             Origin::Triangles(t, u, v) => t < u && u < v && v.at() < m.triangles.len(),
+            Origin::Level(i) => c.levels.points.get(i as usize).is_some_and(|zero| zero.dim <= 3),
         };
         ensure(good, || format!("vertex {v}: its origin {:?} does not fit", c.origins[v]))?;
         let plain = |x: &f64| !x.is_nan() && (*x != 0.0 || x.is_sign_positive());
@@ -149,13 +151,14 @@ fn loops(c: &Complex) -> Check {
     unused(&vertex_used, "vertex")
 }
 
-/// Each face has an owner; a face on a triangle has no neighbour; the plane of a face
-/// on a plane is that plane; its tag is its triangle's.
+/// Each face has an owner; a face on a triangle has no neighbour; only one on a level may have a cell on both sides (it then
+/// ends inside the cell); the plane of a face on a plane is that plane; its tag is its triangle's.
 fn faces_and_cells(c: &Complex) -> Check {
     for f in 0..c.face_count() {
         let [owner, neighbour] = c.face_cells[f];
         ensure(owner.is_some() || neighbour.is_some(), || format!("face {f}: no cell"))?;
-        ensure(owner != neighbour, || format!("face {f}: the same cell on both sides"))?;
+        let level = matches!(c.face_support[f], SupportId::Level(_));
+        ensure(owner != neighbour || level, || format!("face {f}: the same cell on both sides"))?;
         let tag = match c.face_support[f] {
             SupportId::Triangle(t) => {
                 ensure(neighbour.is_none(), || format!("face {f}: on a triangle, with two cells"))?;
@@ -165,6 +168,7 @@ fn faces_and_cells(c: &Complex) -> Check {
                 ensure(c.face_plane[f] == p, || format!("face {f}: lies on another plane than its support"))?;
                 0
             }
+            SupportId::Level(_) => 0,
         };
         ensure(c.face_tag[f] == tag, || format!("face {f}: tag {} instead of {tag}", c.face_tag[f]))?;
     }
@@ -240,6 +244,10 @@ fn on_triangle(c: &Complex, o: Origin, t: TriangleId) -> bool {
         Origin::EdgeTriangle(e, s) => s == t || m.triangle_edges[t.at()].contains(&e),
         Origin::Edges(e, f) => m.triangle_edges[t.at()].iter().any(|&k| k == e || k == f),
         Origin::Triangles(a, b, d) => a == t || b == t || d == t,
+        Origin::Level(i) => {
+            let (zero, corners) = (&c.levels.points[i as usize], m.corners(t));
+            zero.corners[..=zero.dim as usize].iter().all(|x| corners.contains(x))
+        }
     }
 }
 
@@ -363,8 +371,19 @@ pub fn check_volumes(c: &Complex) -> Check {
     ensure(total == solid, || "the cells' volumes do not add up to the mesh's".into())
 }
 
+/// Whether every vertex of a face is on its support, in rationals.
+fn on_level(c: &Complex, f: FaceId) -> Check {
+    let (n, value) = exact_values::support(c, f);
+    c.face_corners(f).into_iter().try_for_each(|k| {
+        let v = c.corner_vertices[k];
+        let x = exact_values::vertex(c, v);
+        let sum = n.iter().zip(&x).fold(rug::Rational::new(), |sum, (n, x)| sum + rug::Rational::from(n * x));
+        ensure(sum == value, || format!("face {}: vertex {} is not on it", f.0, v.0))
+    })
+}
+
 /// What needs exact geometry: each vertex on the planes that it names and on the support of its faces, coordinates
-/// correctly rounded, cells with positive volume, and the Euler characteristic of the solid. For tests: a rational volume
+/// correctly rounded, cells with positive volume, and the Euler characteristic of the solid (of a network's regions where nothing is pinched). For tests: a rational volume
 /// per cell.
 pub fn check_exact(c: &Complex) -> Check {
     (0..c.vertex_count()).into_par_iter().try_for_each(|v| {
@@ -379,6 +398,7 @@ pub fn check_exact(c: &Complex) -> Check {
         let s = match c.face_support[f.at()] {
             SupportId::Plane(p) => Support::Plane(c.planes[p.at()]),
             SupportId::Triangle(t) => Support::Triangle(c.mesh.corners(t)),
+            SupportId::Level(_) => return on_level(c, f),
         };
         c.face_corners(f).into_iter().try_for_each(|k| {
             let v = c.corner_vertices[k];
@@ -389,6 +409,10 @@ pub fn check_exact(c: &Complex) -> Check {
     (0..c.cell_count()).into_par_iter().map(CellId::of).try_for_each(|k| {
         ensure(exact_values::cell_volume(c, k) > 0, || format!("cell {}: its volume is not positive", k.0))
     })?;
-    let (euler, solid) = (euler_with(c, &adjacency(c)?), solid_euler(&c.mesh));
+    let adjacency = adjacency(c)?;
+    if !c.levels.supports.is_empty() && is_pinched(c, &adjacency) {
+        return Ok(());
+    }
+    let (euler, solid) = (euler_with(c, &adjacency), solid_euler(&c.mesh));
     ensure(euler == solid, || format!("Euler characteristic {euler}, the solid's is {solid}"))
 }

@@ -1,7 +1,7 @@
 //! The polyhedral complex as plain flat arrays (DESIGN §7).
 
-use crate::base::{CellId, ComponentId, Csr, EdgeId, FaceId, LoopId, PlaneId, TriangleId, VertexId};
-use crate::exact::{self, Plane, Point};
+use crate::base::{CellId, ComponentId, Csr, EdgeId, FaceId, LoopId, PlaneId, PolygonId, TriangleId, VertexId};
+use crate::exact::{self, Gradient, Plane, Point, Zero};
 use crate::mesh::{self, TriMesh};
 use std::sync::Arc;
 
@@ -22,6 +22,8 @@ pub enum Origin {
     Edges(EdgeId, EdgeId),
     /// Where the planes of three triangles meet.
     Triangles(TriangleId, TriangleId, TriangleId),
+    /// Where linear functions vanish: a position in [`Levels::points`].
+    Level(u32),
 }
 
 /// What a face lies on.
@@ -29,6 +31,19 @@ pub enum Origin {
 pub enum SupportId {
     Triangle(TriangleId),
     Plane(PlaneId),
+    /// Where a linear function vanishes: a position in [`Levels::supports`].
+    Level(PolygonId),
+}
+
+/// Zero sets of functions that are linear on the tetrahedra of a domain, of which the cells of a network are made.
+/// Memory: some 300 bytes a point, 160 a support.
+#[derive(Clone, Debug, Default)]
+pub struct Levels {
+    pub points: Vec<Zero>,
+    /// The network's name of each point.
+    pub vertices: Vec<VertexId>,
+    /// By polygon of the network: a function that vanishes on it and rises along its normal.
+    pub supports: Vec<Gradient>,
 }
 
 /// One side of a face: `face << 1 | front`. Back: the side that the face's normal leaves. The back half-face belongs to
@@ -62,6 +77,7 @@ pub struct Complex {
     /// What the symbolic ids refer to.
     pub mesh: Arc<TriMesh>,
     pub planes: Vec<Plane>,
+    pub levels: Arc<Levels>,
 
     /// Symbolic vertices and their coordinates, correctly rounded.
     pub origins: Vec<Origin>,
@@ -129,11 +145,14 @@ impl Complex {
     }
     /// The exact, symbolic point of a vertex.
     pub fn point(&self, v: VertexId) -> Point {
-        origin_point(&self.mesh, &self.planes, self.origins[v.at()])
+        match self.origins[v.at()] {
+            Origin::Level(i) => Point::Zero(self.levels.points[i as usize]),
+            origin => origin_point(&self.mesh, &self.planes, origin),
+        }
     }
 }
 
-/// The exact point that an origin names.
+/// The exact point that an origin names, of mesh and planes. (Levels are those of a complex: [`Complex::point`].)
 pub fn origin_point(mesh: &TriMesh, planes: &[Plane], origin: Origin) -> Point {
     match origin {
         Origin::Mesh(m) => Point::Vertex(mesh.vertices[m.at()]),
@@ -151,6 +170,7 @@ pub fn origin_point(mesh: &TriMesh, planes: &[Plane], origin: Origin) -> Point {
             let [[a, b], [c, d]] = [e, f].map(|e| mesh.edges[e.at()].map(|v| mesh.vertices[v.at()]));
             Point::Edges { a, b, c, d, axis: crossing_axis(&[a, b], &[c, d]) }
         }
+        Origin::Level(_) => unreachable!("levels are those of a complex"),
         Origin::Triangles(t, u, v) => Point::Supports([t, u, v].map(|t| exact::Support::Triangle(mesh.corners(t)))),
     }
 }

@@ -40,24 +40,12 @@ pub fn euler_with(c: &Complex, a: &Adjacency) -> i64 {
     total - doubled / 2
 }
 
-/// χ of each shell, over half-face orbits.
-pub fn shell_euler(c: &Complex, a: &Adjacency) -> Vec<i64> {
-    let mut shell_of = vec![u32::MAX; 2 * c.face_count()];
-    for s in 0..c.shell_faces.len() {
-        for h in c.shell_faces.row(s) {
-            shell_of[h.at()] = s as u32;
-        }
-    }
-    let mut chi = vec![0i64; c.shell_faces.len()];
+/// Corners of half-faces joined around vertices, within cells.
+fn umbrellas(c: &Complex, a: &Adjacency) -> UnionFind {
     let mut orbits = UnionFind::new(a.mates.len());
-    let mut sides = vec![0i64; chi.len()];
     for h in (0..a.mates.len() as u32).map(HalfCorner) {
         let mate = a.mates[h.at()];
-        if mate.is_none() {
-            continue;
-        }
-        sides[shell_of[a.half_face(h).at()] as usize] += 1;
-        if mate < h {
+        if mate.is_none() || mate < h {
             continue;
         }
         let next = |h: HalfCorner| HalfCorner::new(a.corner_next[h.corner()] as usize, h.front());
@@ -69,6 +57,44 @@ pub fn shell_euler(c: &Complex, a: &Adjacency) -> Vec<i64> {
             orbits.union(next(h).at(), mate.at());
         }
     }
+    orbits
+}
+
+/// Whether several umbrellas of one cell, or of the solid, share a vertex. If one is inside another, as those of voids that touch the outer
+/// shell in a point are, pulled apart they are no discs, and [`euler`] is not that of the solid. (Cells of planes are convex but for the input
+/// surface, which [`shell_euler`] knows; regions of a network may be of any form.)
+pub fn is_pinched(c: &Complex, a: &Adjacency) -> bool {
+    let mut orbits = solid_umbrellas(&c.mesh);
+    if (0..3 * c.mesh.triangles.len()).filter(|&i| orbits.find(i) == i).count() > c.mesh.vertices.len() {
+        return true;
+    }
+    let mut orbits = umbrellas(c, a);
+    let mut places = Vec::new();
+    for h in (0..a.mates.len() as u32).map(HalfCorner) {
+        let half = a.half_face(h);
+        let cell = c.face_cells[half.face().at()][half.front() as usize];
+        if cell.is_some() && orbits.find(h.at()) == h.at() {
+            places.push((c.corner_vertices[h.corner()], cell));
+        }
+    }
+    places.sort_unstable();
+    places.windows(2).any(|w| w[0] == w[1])
+}
+
+/// χ of each shell, over half-face orbits.
+pub fn shell_euler(c: &Complex, a: &Adjacency) -> Vec<i64> {
+    let mut shell_of = vec![u32::MAX; 2 * c.face_count()];
+    for s in 0..c.shell_faces.len() {
+        for h in c.shell_faces.row(s) {
+            shell_of[h.at()] = s as u32;
+        }
+    }
+    let mut chi = vec![0i64; c.shell_faces.len()];
+    let mut sides = vec![0i64; chi.len()];
+    for h in (0..a.mates.len() as u32).map(HalfCorner).filter(|h| !a.mates[h.at()].is_none()) {
+        sides[shell_of[a.half_face(h).at()] as usize] += 1;
+    }
+    let mut orbits = umbrellas(c, a);
     let mut on_surface = vec![false; a.mates.len()];
     for h in (0..a.mates.len() as u32).map(HalfCorner) {
         if matches!(c.face_support[a.corner_face[h.corner()].at()], SupportId::Triangle(_)) {
@@ -118,6 +144,15 @@ pub fn cell_euler(c: &Complex, shells: &[i64], cell: CellId) -> i64 {
 /// The same expression on the uncut solid: its faces are the triangles, its shells the mesh's (triangles paired across
 /// edges through wedges of solid), its bodies the cells.
 pub fn solid_euler(mesh: &TriMesh) -> i64 {
+    let mut orbits = solid_umbrellas(mesh);
+    let orbits = (0..3 * mesh.triangles.len()).filter(|&i| orbits.find(i) == i).count() as i64;
+    // Every triangle has one wall, its inner side: χ of all shells together is orbits − 3T/2 + T.
+    let (v, e, t) = (mesh.vertices.len() as i64, mesh.edges.len() as i64, mesh.triangles.len() as i64);
+    v - e + t - (2 * orbits - t) / 4
+}
+
+/// Corners of triangles joined around vertices, within the solid.
+fn solid_umbrellas(mesh: &TriMesh) -> UnionFind {
     let sides = 3 * mesh.triangles.len();
     let mut orbits = UnionFind::new(sides);
     let corner = |u: EdgeUse, end: usize| 3 * u.triangle.at() + (u.side() + end) % 3;
@@ -131,10 +166,7 @@ pub fn solid_euler(mesh: &TriMesh) -> i64 {
             orbits.union(corner(a, 1), corner(b, 0));
         }
     }
-    let orbits = (0..sides).filter(|&i| orbits.find(i) == i).count() as i64;
-    // Every triangle has one wall, its inner side: χ of all shells together is orbits − 3T/2 + T.
-    let (v, e, t) = (mesh.vertices.len() as i64, mesh.edges.len() as i64, mesh.triangles.len() as i64);
-    v - e + t - (2 * orbits - t) / 4
+    orbits
 }
 
 /// Vertices − edges + polygons of a mesh, as the point set that it is; of segments (polygons of two corners): vertices − edges.

@@ -48,7 +48,17 @@ pub fn tree_sum(mut terms: Vec<Rational>) -> Rational {
 }
 
 /// The normal of a support and its value n·x at any point of it.
-fn support(c: &Complex, f: FaceId) -> (Coordinates, Rational) {
+pub(crate) fn support(c: &Complex, f: FaceId) -> (Coordinates, Rational) {
+    let minus =
+        |a: &Coordinates, b: &Coordinates| -> Coordinates { std::array::from_fn(|i| Rational::from(&a[i] - &b[i])) };
+    let cross = |u: &Coordinates, v: &Coordinates| -> Coordinates {
+        std::array::from_fn(|i| {
+            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+            product(&u[j], &v[k]) - product(&u[k], &v[j])
+        })
+    };
+    let dot =
+        |a: &Coordinates, b: &Coordinates| (0..3).map(|i| product(&a[i], &b[i])).fold(Rational::new(), |s, x| s + x);
     match c.face_support[f.at()] {
         SupportId::Plane(p) => {
             let p = &c.planes[p.at()];
@@ -56,13 +66,22 @@ fn support(c: &Complex, f: FaceId) -> (Coordinates, Rational) {
         }
         SupportId::Triangle(t) => {
             let [a, b, d] = c.mesh.corners(t).map(|p| p.map(of));
-            let u: [Rational; 3] = std::array::from_fn(|i| Rational::from(&b[i] - &a[i]));
-            let v: [Rational; 3] = std::array::from_fn(|i| Rational::from(&d[i] - &a[i]));
-            let n: [Rational; 3] = std::array::from_fn(|i| {
-                let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-                product(&u[j], &v[k]) - product(&u[k], &v[j])
+            let n = cross(&minus(&b, &a), &minus(&d, &a));
+            let value = dot(&n, &a);
+            (n, value)
+        }
+        SupportId::Level(p) => {
+            // The gradient times the determinant of the sides at a: see `exact::predicates::direction`.
+            let g = &c.levels.supports[p.at()];
+            let [a, b, d, e] = g.corners.map(|p| p.map(of));
+            let f: [Rational; 4] = std::array::from_fn(|i| of(g.function.first[i]) - of(g.function.second[i]));
+            let (u, v, w) = (minus(&b, &a), minus(&d, &a), minus(&e, &a));
+            let rise: Coordinates = std::array::from_fn(|i| Rational::from(&f[i + 1] - &f[0]));
+            let (vw, wu, uv) = (cross(&v, &w), cross(&w, &u), cross(&u, &v));
+            let n: Coordinates = std::array::from_fn(|i| {
+                product(&rise[0], &vw[i]) + product(&rise[1], &wu[i]) + product(&rise[2], &uv[i])
             });
-            let value = (0..3).map(|i| product(&n[i], &a[i])).fold(Rational::new(), |s, x| s + x);
+            let value = dot(&n, &a) - dot(&u, &vw) * &f[0];
             (n, value)
         }
     }
@@ -168,7 +187,11 @@ fn sign(h: HalfFace, x: Rational) -> Rational {
 
 /// The exact volume of a cell.
 pub fn cell_volume(c: &Complex, cell: CellId) -> Rational {
-    let faces = c.cell_faces(cell);
+    volume_within(c, c.cell_faces(cell))
+}
+
+/// The exact volume that a closed set of half-faces bounds, seen from inside: of the wall of a void it is negative.
+pub fn volume_within(c: &Complex, faces: &[HalfFace]) -> Rational {
     let whole = || faces.iter().filter_map(|h| uncut(c, h.face()).map(|t| (*h, t)));
     let exponent = lowest_exponent(whole().flat_map(|(_, t)| t.into_iter().flatten()));
     let mut sum = Integer::new();

@@ -46,6 +46,7 @@
 //! Degenerate cases: an edge in several planes takes the smallest; a hole of one vertex has no half-edge and is skipped; an edge that has the
 //! face on both sides offers both half-edges; where the plane that stands for coincident ones faces the other way than the one of the smallest id,
 //! loops are read backwards. Complexes of input that intersects itself may be without a name: an error, never a panic.
+//! Complexes of networks have no keys: they are not made of planes, and callers do not ask for those of their vertices.
 //!
 //! Cost: linear in corners and in the sizes of the vertices' plane sets, one exact comparison a face; one walk over the mesh.
 
@@ -235,7 +236,7 @@ impl Names<'_> {
             Origin::Triangle(t, _, _) => Some((self.triangle(t), INSIDE)),
             Origin::EdgeTriangle(e, _) | Origin::Edges(e, _) => Some(self.edge(e)).map(|(id, k)| (id, ON_SIDE + k)),
             Origin::Triangles(t, ..) => Some((self.triangle(t), INSIDE)),
-            Origin::Planes(..) => None,
+            Origin::Planes(..) | Origin::Level(_) => None,
         }
     }
 }
@@ -278,6 +279,7 @@ fn of_triangles(names: &Names, origin: Origin) -> u128 {
         Origin::Mesh(_) | Origin::Edge(..) | Origin::Triangle(..) | Origin::Planes(..) => {
             unreachable!("the caller's match has those with planes")
         }
+        Origin::Level(_) => unreachable!("complexes with levels have no keys"),
     }
 }
 
@@ -368,6 +370,7 @@ fn half_edge<S: AsRef<[PlaneId]>>(names: &Names, face: &Face, u: &Corner<S>, v: 
     let (c, d) = carriers(names, u.planes.as_ref(), v.planes.as_ref(), face.own);
     let (start, by_end) = (d.unwrap_or(0), if d.is_some() { 0 } else { BY_END });
     match (face.support, c) {
+        (SupportId::Level(_), _) => None,
         (SupportId::Triangle(t), Some(c)) => Some((pack(CHORD + by_end, names.triangle(t), c, start), true)),
         (SupportId::Triangle(t), None) => {
             let side = side_of(names.mesh, t, u.origin, v.origin)?;
@@ -440,6 +443,7 @@ pub fn face_key<'a, S: AsRef<[PlaneId]>>(
 ) -> Option<Key> {
     let (own, backwards) = match support {
         SupportId::Plane(p) => (p, names.reversed(p)),
+        SupportId::Level(_) => return None,
         SupportId::Triangle(_) => (plane_of(loops.clone().next()?, &corner), false),
     };
     let face = Face { support, own };

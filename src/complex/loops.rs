@@ -6,7 +6,8 @@
 //!
 //! Cost: linear in the half-edges.
 
-use crate::base::Csr;
+use crate::base::{Csr, EdgeId, VertexId};
+use rayon::prelude::*;
 
 /// Loops as rows of half-edges, by lowest half-edge. Fails with a half-edge whose left side is inside while its
 /// successor's is not: the labels contradict each other.
@@ -45,4 +46,32 @@ pub fn trace_loops(half_edges: usize, star: &Csr<u32>, has_face: impl Fn(u32) ->
         loops.end_row();
     }
     Ok(loops)
+}
+
+/// Edges by rising pair of vertices, and the edge from each corner to the next of its loop (`NONE` for the only corner of one).
+/// Cost: a sort of the corners.
+pub fn find_edges(loop_offsets: &[u32], corners: &[VertexId]) -> (Vec<[VertexId; 2]>, Vec<EdgeId>) {
+    let mut uses: Vec<(u64, u32)> = Vec::with_capacity(corners.len());
+    for w in loop_offsets.windows(2) {
+        let row = w[0] as usize..w[1] as usize;
+        if row.len() < 2 {
+            continue;
+        }
+        for k in row.clone() {
+            let (a, b) = (corners[k], corners[if k + 1 == row.end { row.start } else { k + 1 }]);
+            uses.push(((a.min(b).0 as u64) << 32 | a.max(b).0 as u64, k as u32));
+        }
+    }
+    uses.par_sort_unstable();
+    let mut edges: Vec<[VertexId; 2]> = Vec::new();
+    let mut of_corner = vec![EdgeId::NONE; corners.len()];
+    let mut last = u64::MAX;
+    for (ends, k) in uses {
+        if ends != last {
+            last = ends;
+            edges.push([VertexId((ends >> 32) as u32), VertexId(ends as u32)]);
+        }
+        of_corner[k as usize] = EdgeId::of(edges.len() - 1);
+    }
+    (edges, of_corner)
 }

@@ -2,6 +2,7 @@
 //! from faces to nested cells and from there to the arrays that a host reads.
 
 pub mod adjacency;
+pub mod bodies;
 pub mod bridge;
 pub mod certified;
 pub mod certify;
@@ -26,7 +27,7 @@ pub mod triangulate;
 pub use adjacency::{Adjacency, HalfCorner, adjacency};
 pub use certify::{CertifiedComplex, CertifyOptions, CertifyReport, certify};
 pub use check::{check, check_part, check_volumes};
-pub use data::{Complex, HalfFace, Origin, SupportId};
+pub use data::{Complex, HalfFace, Levels, Origin, SupportId};
 pub use euler::{euler, solid_euler, surface_euler};
 pub use keys::{GlobalIds, Key};
 pub use moments::{Moments, moments};

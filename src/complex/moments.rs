@@ -20,7 +20,7 @@ use super::data::{Complex, HalfFace, Origin, SupportId, crossing_axis};
 use super::exact_values;
 use super::projection::{Projection, projection};
 use crate::base::{CellId, FaceId, VertexId};
-use crate::exact::{Plane, round_rational};
+use crate::exact::{Gradient, Linear, Plane, Zero, round_rational};
 use crate::mesh::projection::seen_along;
 use rayon::prelude::*;
 
@@ -213,6 +213,40 @@ fn position(c: &Complex, v: VertexId) -> Vector {
                 }
             }
         }
+        Origin::Level(i) => {
+            let Zero { dim, corners, functions } = &c.levels.points[i as usize];
+            let corners = &corners[..=*dim as usize];
+            fix(&mut known, corners);
+            if known.contains(&None) {
+                let rows = functions.each_ref().map(values_of);
+                let [p, q, r] = &rows;
+                // Of all corners but the first, over the sum of all.
+                let weights: Vector = match dim {
+                    1 => [p[0] / (p[0] - p[1]), Certified::ZERO, Certified::ZERO],
+                    2 => {
+                        let three = |x: &[Certified; 4]| [x[0], x[1], x[2]];
+                        let w = cross(&three(p), &three(q));
+                        let sum = w[0] + w[1] + w[2];
+                        [w[1] / sum, w[2] / sum, Certified::ZERO]
+                    }
+                    _ => {
+                        let of = |i: usize, j: usize, k: usize| {
+                            dot(&[p[i], p[j], p[k]], &cross(&[q[i], q[j], q[k]], &[r[i], r[j], r[k]]))
+                        };
+                        let w = [of(1, 2, 3), -of(0, 2, 3), of(0, 1, 3), -of(0, 1, 2)];
+                        let sum = w[0] + w[1] + (w[2] + w[3]);
+                        [w[1] / sum, w[2] / sum, w[3] / sum]
+                    }
+                };
+                for i in 0..3 {
+                    if known[i].is_none() {
+                        let step = |k: usize| weights[k] * Certified::difference(corners[k + 1][i], corners[0][i]);
+                        let sum = (1..corners.len() - 1).fold(step(0), |sum, k| sum + step(k));
+                        rest[i] = Certified::exactly(corners[0][i]) + sum;
+                    }
+                }
+            }
+        }
         Origin::Planes(p, q, r) => {
             if known.contains(&None) {
                 let planes = [p, q, r].map(|p| &c.planes[p.at()]);
@@ -241,6 +275,11 @@ fn along(rest: &mut Vector, known: &[Option<Certified>; 3], [a, b]: [[f64; 3]; 2
     }
 }
 
+/// A linear function's values at the corners.
+fn values_of(function: &Linear) -> [Certified; 4] {
+    std::array::from_fn(|i| Certified::difference(function.first[i], function.second[i]))
+}
+
 /// The normal of a face's support, in double-doubles.
 fn normal(c: &Complex, f: FaceId) -> Vector {
     match c.face_support[f.at()] {
@@ -249,6 +288,15 @@ fn normal(c: &Complex, f: FaceId) -> Vector {
             let [a, b, d] = c.mesh.corners(t);
             let to = |p: [f64; 3]| std::array::from_fn(|i| Certified::difference(p[i], a[i]));
             cross(&to(b), &to(d))
+        }
+        SupportId::Level(p) => {
+            let Gradient { corners: [a, b, d, e], function } = &c.levels.supports[p.at()];
+            let to = |p: &[f64; 3]| -> Vector { std::array::from_fn(|i| Certified::difference(p[i], a[i])) };
+            let (u, v, w) = (to(b), to(d), to(e));
+            let [f, g, h, k] = values_of(function);
+            let rise = [g - f, h - f, k - f];
+            let (vw, wu, uv) = (cross(&v, &w), cross(&w, &u), cross(&u, &v));
+            std::array::from_fn(|i| dot(&rise, &[vw[i], wu[i], uv[i]]))
         }
     }
 }
@@ -284,7 +332,7 @@ fn face(c: &Complex, points: &[Vector], f: FaceId) -> (FaceSums, Item<6>) {
         // A triangle on a plane has the plane's direction, exactly; and all triangles have their middle.
         area = match c.face_support[f.at()] {
             SupportId::Triangle(_) => cross(&u, &v).map(|x| x.scaled(0.5)),
-            SupportId::Plane(_) => polygon(c, points, f, projection(c, f)).area,
+            SupportId::Plane(_) | SupportId::Level(_) => polygon(c, points, f, projection(c, f)).area,
         };
         (add(&u, &v), add(&add(p0, b), d).map(Certified::third))
     } else {

@@ -9,7 +9,7 @@
 
 use super::data::{Complex, Origin, SupportId};
 use crate::base::{FaceId, PlaneId, VertexId};
-use crate::exact::{self, Point, Sign};
+use crate::exact::{self, Direction, Gradient, Linear, Point, Sign};
 use std::cmp::Ordering;
 
 /// The two coordinate axes that a face is seen in.
@@ -40,6 +40,17 @@ pub fn projection(c: &Complex, f: FaceId) -> Projection {
             let v = [d[0] - a[0], d[1] - a[1], d[2] - a[2]];
             [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
         }
+        SupportId::Level(p) => {
+            let Gradient { corners: [a, b, d, e], function: Linear { first, second } } = &c.levels.supports[p.at()];
+            let to = |p: &[f64; 3]| [p[0] - a[0], p[1] - a[1], p[2] - a[2]];
+            let cross = |u: [f64; 3], v: [f64; 3]| {
+                [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
+            };
+            let rise = |i: usize| (first[i] - second[i]) - (first[0] - second[0]);
+            let (u, v, w) = (to(b), to(d), to(e));
+            let (vw, wu, uv) = (cross(v, w), cross(w, u), cross(u, v));
+            std::array::from_fn(|i| rise(1) * vw[i] + rise(2) * wu[i] + rise(3) * uv[i])
+        }
     };
     let plane = c.face_plane[f.at()];
     let mut axes = [0, 1, 2];
@@ -51,6 +62,10 @@ pub fn projection(c: &Complex, f: FaceId) -> Projection {
             SupportId::Plane(_) if n[axis] > 0.0 => Sign::Positive,
             SupportId::Plane(_) if n[axis] < 0.0 => Sign::Negative,
             SupportId::Plane(_) => Sign::Zero,
+            SupportId::Level(p) => {
+                let unit = |i: usize| Direction::Plane(std::array::from_fn(|j| (j == i % 3) as u8 as f64));
+                exact::determinant(&Direction::Gradient(c.levels.supports[p.at()]), &unit(axis + 1), &unit(axis + 2))
+            }
             SupportId::Triangle(t) => {
                 let [a, b, d] = c.mesh.corners(t);
                 exact::turn_projected(

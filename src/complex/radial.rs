@@ -114,6 +114,18 @@ pub fn wedge_pairs(
         pair(i, HalfFace::new(uses[i as usize].face, false), j, HalfFace::new(uses[j as usize].face, false));
         return Ok(());
     }
+    // One or two that have the inside all around them: there is one order.
+    if let [a] | [a, _] = *uses
+        && uses.iter().all(|&u| is_inside(c, u, u.far()) && is_inside(c, u, u.near()))
+    {
+        counters::count_topology(counters::Predicate::RadialOrder);
+        let b = uses[uses.len() - 1];
+        pair(0, a.far(), uses.len() as u32 - 1, b.near());
+        if uses.len() == 2 {
+            pair(1, b.far(), 0, a.near());
+        }
+        return Ok(());
+    }
     if uses.len() == 3
         && uses.iter().all(|&u| on_surface(c, u) || (is_inside(c, u, u.far()) && is_inside(c, u, u.near())))
         && let Some(p) = (0..3).find(|&i| !on_surface(c, uses[i]))
@@ -214,6 +226,7 @@ pub fn face_normal(c: &Complex, f: FaceId) -> Direction {
     match c.face_support[f.at()] {
         SupportId::Triangle(t) => Direction::Triangle(c.mesh.corners(t)),
         SupportId::Plane(p) => Direction::Plane(c.planes[p.at()].n),
+        SupportId::Level(p) => Direction::Gradient(c.levels.supports[p.at()]),
     }
 }
 

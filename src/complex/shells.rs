@@ -179,22 +179,14 @@ where
 /// Fills the cells of a complex from its shells. `host(shell)` is `None` for an outer shell and, for the wall of a void, a half-face of the
 /// shell around it.
 pub fn form_cells(c: &mut Complex, shells: &Shells, host: &[Option<HalfFace>]) -> Result<()> {
-    let count = shells.lowest.len();
     if host.iter().all(Option::is_none) {
         // A cell per shell: nothing to look up.
+        let count = shells.lowest.len();
         c.cell_shells = (0..=count as u32).collect();
         sort_half_faces(c, shells, count, |s| s.at(), |s| CellId(s.0));
     } else {
         let (cell_of, cells) = hang_voids(shells, host)?;
-        // Shells by cell, the outer one first.
-        let outer = (0..count).filter(|&s| host[s].is_none());
-        let voids = (0..count).filter(|&s| host[s].is_some());
-        let by_cell = Csr::from_pairs(cells, outer.chain(voids).map(|s| (cell_of[s].at(), ShellId::of(s))));
-        let mut place = vec![0u32; count];
-        by_cell.items.iter().enumerate().for_each(|(i, s)| place[s.at()] = i as u32);
-        c.cell_shells = by_cell.offsets;
-        let cell = |s: ShellId| if s.is_none() { CellId::NONE } else { cell_of[s.at()] };
-        sort_half_faces(c, shells, count, |s| place[s.at()] as usize, cell);
+        fill_cells(c, shells, cells, &cell_of, |s| host[s.at()].is_none());
     }
     let same = |range: Range<usize>| range.into_iter().find(|&f| c.face_cells[f][0] == c.face_cells[f][1]);
     match map_ranges(c.face_count(), LEAST, same).into_iter().flatten().next() {
@@ -203,6 +195,26 @@ pub fn form_cells(c: &mut Complex, shells: &Shells, host: &[Option<HalfFace>]) -
             Err(Error::inconsistent(format!("face {f} has the same cell on both sides: the surface intersects itself")))
         }
     }
+}
+
+/// Fills the cells of a complex from its shells, given the cell of each, of which one is the outer one.
+pub fn fill_cells(
+    c: &mut Complex,
+    shells: &Shells,
+    cells: usize,
+    cell_of: &[CellId],
+    is_outer: impl Fn(ShellId) -> bool,
+) {
+    // Shells by cell, the outer one first.
+    let count = cell_of.len();
+    let all = || (0..count).map(ShellId::of);
+    let (outer, voids) = (all().filter(|&s| is_outer(s)), all().filter(|&s| !is_outer(s)));
+    let by_cell = Csr::from_pairs(cells, outer.chain(voids).map(|s| (cell_of[s.at()].at(), s)));
+    let mut place = vec![0u32; count];
+    by_cell.items.iter().enumerate().for_each(|(i, s)| place[s.at()] = i as u32);
+    c.cell_shells = by_cell.offsets;
+    let cell = |s: ShellId| if s.is_none() { CellId::NONE } else { cell_of[s.at()] };
+    sort_half_faces(c, shells, count, |s| place[s.at()] as usize, cell);
 }
 
 /// The cell of each shell, and the number of cells.

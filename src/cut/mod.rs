@@ -4,7 +4,6 @@
 //! [`assemble`] → shells and cells (`complex::shells`) → [`voids`].
 
 pub mod assemble;
-pub mod bodies;
 pub mod classify;
 pub mod edges;
 pub mod faces;
@@ -118,7 +117,7 @@ pub fn cut(mesh: &Arc<TriMesh>, planes: &[Plane], _options: &CutOptions, run: &m
     let located = voids::Located { all: &all, graphs, first_face: &first_face };
     let hosts = voids::hosts(&complex, &found, &located)?;
     shells::form_cells(&mut complex, &found, &hosts)?;
-    bodies::assign_components(&mut complex)?;
+    crate::complex::bodies::assign_components(&mut complex)?;
     let plane_map = knives.knife_of.iter().map(|k| knives.ids[k.at()]).collect();
     run.end_stage();
     Ok(Cut { complex, plane_map, stages: run.take_stages() })

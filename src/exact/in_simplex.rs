@@ -9,6 +9,7 @@ use super::interpolate;
 use super::points::{Shape, Symbolic};
 use super::ring::{Kernel, Ring, cross};
 use super::rows::{Row, determinant_of_rows};
+use super::types::{Linear, Zero};
 use std::cmp::Ordering;
 
 /// Where a function vanishes between two corners.
@@ -85,6 +86,40 @@ impl Symbolic for InTetrahedron<'_> {
     }
     fn quick(&self, _: &[bool; 3]) -> [Option<f64>; 3] {
         [None; 3]
+    }
+}
+
+impl Linear {
+    /// The values at the first `M` corners, 4 at most.
+    #[inline]
+    pub fn row<const M: usize>(&self) -> Row<'_, M> {
+        const { assert!(M <= 4) };
+        let (first, second) = (self.first.first_chunk().expect("M <= 4"), self.second.first_chunk().expect("M <= 4"));
+        if second.iter().all(|&x| x == 0.0) { Row::Values(first) } else { Row::Difference(first, second) }
+    }
+}
+
+impl Symbolic for Zero {
+    fn shape<K: Kernel>(&self, k: &K) -> Shape<K::N> {
+        let ([a, b, c, d], [p, q, r]) = (self.corners, &self.functions);
+        match self.dim {
+            0 => Shape::One(k.point(&a)),
+            1 => OnEdge { corners: [a, b], row: p.row() }.shape(k),
+            2 => InTriangle { corners: [a, b, c], rows: [p.row(), q.row()] }.shape(k),
+            _ => InTetrahedron { corners: [a, b, c, d], rows: [p.row(), q.row(), r.row()] }.shape(k),
+        }
+    }
+    fn plain(&self, axis: usize) -> Option<(f64, f64)> {
+        let [first, rest @ ..] = &self.corners;
+        rest[..self.dim.min(3) as usize].iter().all(|c| c[axis] == first[axis]).then_some((first[axis], 1.0))
+    }
+    fn quick(&self, open: &[bool; 3]) -> [Option<f64>; 3] {
+        let ([a, b, c, _], [p, q, _]) = (self.corners, &self.functions);
+        match self.dim {
+            1 => OnEdge { corners: [a, b], row: p.row() }.quick(open),
+            2 => InTriangle { corners: [a, b, c], rows: [p.row(), q.row()] }.quick(open),
+            _ => [None; 3],
+        }
     }
 }
 

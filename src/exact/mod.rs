@@ -39,4 +39,4 @@ pub use residue::Residue;
 pub use round::{approx, rational, round, round_rational, round_symbolic};
 pub use rows::{Row, determinant_of_rows};
 pub use sign::Sign;
-pub use types::{Approx, Direction, Plane, Point, Support};
+pub use types::{Approx, Direction, Gradient, Linear, Plane, Point, Support, Zero};

@@ -86,6 +86,7 @@ impl Symbolic for Point {
         match self {
             Point::EdgePlane { a, b, p } => interpolate::on_edge(a, b, p, open),
             Point::TrianglePlanes { t, p, q } => interpolate::in_triangle(t, p, q, open),
+            Point::Zero(zero) => zero.quick(open),
             _ => [None; 3],
         }
     }
@@ -128,6 +129,7 @@ pub fn shape<K: Kernel>(k: &K, x: &Point) -> Shape<K::N> {
         Point::Supports([p, q, r]) => {
             meet(coefficients(form(k, p)), coefficients(form(k, q)), coefficients(form(k, r)))
         }
+        Point::Zero(zero) => zero.shape(k),
     }
 }
 
@@ -217,6 +219,7 @@ pub fn plain(x: &Point, axis: usize) -> Option<(f64, f64)> {
         Point::Edges { a, b, c, d, .. } => on_edge(a, b).or_else(|| on_edge(c, d)),
         Point::TrianglePlanes { t, p, q } => on_triangle(t).or_else(|| on_plane(p)).or_else(|| on_plane(q)),
         Point::Planes { p, q, r } => on_plane(p).or_else(|| on_plane(q)).or_else(|| on_plane(r)),
+        Point::Zero(zero) => zero.plain(axis),
         Point::Supports(s) => on_support(&s[0]).or_else(|| on_support(&s[1])).or_else(|| on_support(&s[2])),
     }
 }

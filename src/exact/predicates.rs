@@ -9,7 +9,7 @@ use super::ring::{Expression, Kernel, Ring, cross, det3, difference, dot as dot_
 use super::rows::{Row, determinant_of_rows};
 use super::static_filters as filters;
 use super::tiers::sign_of;
-use super::types::{Direction, Plane, Point, Support};
+use super::types::{Direction, Gradient, Plane, Point, Support};
 use std::cmp::Ordering;
 
 #[doc(hidden)]
@@ -199,6 +199,15 @@ pub fn direction<K: Kernel>(k: &K, d: &Direction) -> [K::N; 3] {
             cross(&difference(&k.point(b), &a), &difference(&k.point(c), &a))
         }
         Direction::Between(a, b) => difference(&k.point(b), &k.point(a)),
+        Direction::Gradient(Gradient { corners, function }) => {
+            // (f_b − f_a) v×w + (f_c − f_a) w×u + (f_d − f_a) u×v over det(u, v, w), with u, v, w from a to b, c, d.
+            let [a, b, c, d] = [0, 1, 2, 3].map(|i| k.point(&corners[i]));
+            let (u, v, w) = (difference(&b, &a), difference(&c, &a), difference(&d, &a));
+            let [f, rest @ ..] = k.row::<4>(&function.row());
+            let rise = rest.map(|x| x.minus(&f));
+            let (vw, wu, uv) = (cross(&v, &w), cross(&w, &u), cross(&u, &v));
+            std::array::from_fn(|i| dot_product(&rise, &[vw[i].clone(), wu[i].clone(), uv[i].clone()]))
+        }
     }
 }
 

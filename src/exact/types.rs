@@ -49,14 +49,40 @@ pub enum Point {
     },
     /// Any three supports in general position: three triangles; two triangles and a plane; ...
     Supports([Support; 3]),
+    /// Where functions that are linear on a simplex vanish.
+    Zero(Zero),
 }
 
-/// An exact direction (or normal): of a plane, of a triangle ((b-a)x(c-a)), or from a to b.
+/// A function that is linear on a simplex, by its values at the corners: first minus second, exactly. (`second` is zero for one that is given by itself.)
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Linear {
+    pub first: [f64; 4],
+    pub second: [f64; 4],
+}
+
+/// The point of an open simplex of `dim` dimensions where so many functions vanish: a corner, on an edge, in a triangle, in a tetrahedron. What
+/// is behind `dim` is not read.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Zero {
+    pub dim: u32,
+    pub corners: [[f64; 3]; 4],
+    pub functions: [Linear; 3],
+}
+
+/// How a linear function rises on a tetrahedron a, b, c, d with det(b − a, c − a, d − a) > 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gradient {
+    pub corners: [[f64; 3]; 4],
+    pub function: Linear,
+}
+
+/// An exact direction (or normal): of a plane, of a triangle ((b-a)x(c-a)), from a to b, or of a gradient.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Direction {
     Plane([f64; 3]),
     Triangle([[f64; 3]; 3]),
     Between([f64; 3], [f64; 3]),
+    Gradient(Gradient),
 }
 
 /// Coordinates with a bound: each true coordinate is within `err[i]` of `x[i]` (err may be infinite).

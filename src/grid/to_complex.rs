@@ -7,9 +7,9 @@
 //! Cost: linear, and a sort of the corners that finds edges; about twice the memory of what is kept.
 
 use super::data::{FULL_CELL, GridCells};
-use crate::base::{CellId, ComponentId, Csr, EdgeId, FaceId, PlaneId, VertexId};
+use crate::base::{CellId, ComponentId, Csr, FaceId, PlaneId, VertexId};
+use crate::complex::loops::find_edges;
 use crate::complex::{Complex, SupportId};
-use rayon::prelude::*;
 
 /// All planes through a vertex, by rising id.
 pub fn planes_through(grid: &GridCells, v: VertexId) -> impl Iterator<Item = PlaneId> + '_ {
@@ -56,6 +56,7 @@ pub fn to_complex(grid: &GridCells) -> Complex {
     Complex {
         mesh: grid.mesh.clone(),
         planes: grid.planes.clone(),
+        levels: Default::default(),
         origins: (0..grid.vertex_count()).map(|v| grid.origin(VertexId::of(v))).collect(),
         coords: grid.coords.clone(),
         vertex_planes,
@@ -72,31 +73,4 @@ pub fn to_complex(grid: &GridCells) -> Complex {
         shell_faces: grid.shell_faces.clone(),
         cell_component,
     }
-}
-
-/// Edges by rising pair of vertices, and the edge from each corner to the next of its loop.
-fn find_edges(loop_offsets: &[u32], corners: &[VertexId]) -> (Vec<[VertexId; 2]>, Vec<EdgeId>) {
-    let mut uses: Vec<(u64, u32)> = Vec::with_capacity(corners.len());
-    for w in loop_offsets.windows(2) {
-        let row = w[0] as usize..w[1] as usize;
-        if row.len() < 2 {
-            continue;
-        }
-        for k in row.clone() {
-            let (a, b) = (corners[k], corners[if k + 1 == row.end { row.start } else { k + 1 }]);
-            uses.push(((a.min(b).0 as u64) << 32 | a.max(b).0 as u64, k as u32));
-        }
-    }
-    uses.par_sort_unstable();
-    let mut edges: Vec<[VertexId; 2]> = Vec::new();
-    let mut of_corner = vec![EdgeId::NONE; corners.len()];
-    let mut last = u64::MAX;
-    for (ends, k) in uses {
-        if ends != last {
-            last = ends;
-            edges.push([VertexId((ends >> 32) as u32), VertexId(ends as u32)]);
-        }
-        of_corner[k as usize] = EdgeId::of(edges.len() - 1);
-    }
-    (edges, of_corner)
 }

@@ -15,6 +15,7 @@ pub mod edges;
 pub mod exact_vertices;
 pub mod extract;
 pub mod local;
+mod locate;
 mod mesh_cells;
 mod mesh_edges;
 pub mod patches;
@@ -30,7 +31,10 @@ mod signs;
 pub mod simplex;
 mod table;
 pub mod tet_mesh;
+pub mod ties;
 pub mod topology;
+pub mod volumes;
+mod walls;
 
 pub use data::{Network, SetItem, Values};
 pub use domain::{BoxGrid, Domain};

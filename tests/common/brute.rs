@@ -389,6 +389,7 @@ fn support(c: &Complex, f: FaceId) -> Flat {
     match c.face_support[f.at()] {
         SupportId::Triangle(t) => Flat::through(&c.mesh.corners(t).map(point)),
         SupportId::Plane(p) => Flat::of(&c.planes[p.at()]),
+        SupportId::Level(_) => unreachable!("a level in a cut by planes"),
     }
 }
 
@@ -426,7 +427,7 @@ fn areas(c: &Complex, points: &[P], oracle: &Oracle) -> Outcome {
                 sums[t.at()] += x;
                 c.mesh.tags.get(t.at()).copied().unwrap_or(0)
             }
-            SupportId::Plane(_) => 0,
+            SupportId::Plane(_) | SupportId::Level(_) => 0,
         };
         ensure(c.face_tag[f.at()] == tag, || format!("face {}: tag {}", f.0, c.face_tag[f.at()]))?;
     }

@@ -162,12 +162,13 @@ pub fn reference(mesh: Arc<TriMesh>, lattice: Lattice) -> Reference {
                 g.square_node.push(square(&lattice, p, at(owner), at(neighbour)));
                 g.square_cells.push([name(owner), name(neighbour)]);
             }
+            SupportId::Level(_) => unreachable!("a level in a cut by planes"),
         }
     }
     let first = g.wall_triangle.len();
     let axis_of = |f: FaceId| match c.face_support[f.at()] {
         SupportId::Plane(p) => lattice.plane_at(p).0,
-        SupportId::Triangle(_) => unreachable!("a wall among plane faces"),
+        SupportId::Triangle(_) | SupportId::Level(_) => unreachable!("a wall among plane faces"),
     };
     let end = |a: usize| (first + faces[first..].iter().filter(|f| axis_of(**f) < a).count()) as u32;
     g.plane_faces = [end(0), end(1), end(2), end(3)];

@@ -6,7 +6,7 @@
 #[path = "../common/random.rs"]
 pub mod random;
 
-use lapidary::exact::{Direction, Plane, Point, Sign, Support};
+use lapidary::exact::{Direction, Gradient, Linear, Plane, Point, Sign, Support, Zero};
 pub use random::Random;
 use rug::Rational;
 use std::cmp::Ordering;
@@ -227,6 +227,61 @@ pub fn point(x: &Point) -> Option<Q3> {
         }
         Point::Planes { p, q, r } => solve([p, q, r].map(|p| equation(&Support::Plane(*p)))),
         Point::Supports(s) => solve([equation(&s[0]), equation(&s[1]), equation(&s[2])]),
+        Point::Zero(zero) => zero_place(zero),
+    }
+}
+
+/// The values of a linear function at corners.
+fn linear(f: &Linear) -> [Q; 4] {
+    std::array::from_fn(|i| q(f.first[i]) - q(f.second[i]))
+}
+
+/// Weights are the minors of the rows without a column, with alternating signs; `None` unless the point is inside.
+fn zero_place(zero: &Zero) -> Option<Q3> {
+    let rows: Vec<[Q; 4]> = zero.functions.iter().map(linear).collect();
+    let n = zero.dim as usize;
+    let minor = |column: usize| {
+        let m: Vec<Vec<&Q>> =
+            rows[..n].iter().map(|r| (0..=n).filter(|&k| k != column).map(|k| &r[k]).collect()).collect();
+        let at = |i: usize, j: usize| m[i][j].clone();
+        let w = match n {
+            0 => Q::from(1),
+            1 => at(0, 0),
+            2 => leibniz::<2>(&std::array::from_fn(|i| std::array::from_fn(|j| at(i, j)))),
+            _ => leibniz::<3>(&std::array::from_fn(|i| std::array::from_fn(|j| at(i, j)))),
+        };
+        if column % 2 == 0 { w } else { -w }
+    };
+    let weights: Vec<Q> = (0..=n).map(minor).collect();
+    if weights.iter().any(|w| *w == 0 || (*w > 0) != (weights[0] > 0)) {
+        return None;
+    }
+    let sum = weights.iter().fold(Q::new(), |s, w| s + w);
+    let weighted = |i: usize| weights.iter().zip(&zero.corners).fold(Q::new(), |s, (w, c)| s + q(c[i]) * w);
+    Some(std::array::from_fn(|i| weighted(i) / &sum))
+}
+
+fn random_linear(r: &mut Random, kind: usize) -> Linear {
+    let mut row = || std::array::from_fn(|_| number(r, kind));
+    let first = row();
+    let second = row();
+    Linear { first, second: if first[0].to_bits() & 1 == 0 { [0.0; 4] } else { second } }
+}
+
+pub fn zero(r: &mut Random, kind: usize) -> Point {
+    let dim = r.below(4) as u32;
+    let corners = std::array::from_fn(|_| vector(r, kind));
+    Point::Zero(Zero { dim, corners, functions: std::array::from_fn(|_| random_linear(r, kind)) })
+}
+
+/// A gradient on a tetrahedron of positive orientation.
+pub fn gradient(r: &mut Random, kind: usize) -> Gradient {
+    loop {
+        let corners: [[f64; 3]; 4] = std::array::from_fn(|_| vector(r, kind));
+        let [a, b, c, d] = corners.each_ref().map(q3);
+        if dot(&cross(&sub(&b, &a), &sub(&c, &a)), &sub(&d, &a)) > 0 {
+            return Gradient { corners, function: random_linear(r, kind) };
+        }
     }
 }
 
@@ -240,6 +295,11 @@ pub fn direction(d: &Direction) -> Q3 {
         Direction::Plane(n) => q3(n),
         Direction::Triangle(t) => triangle_normal(t),
         Direction::Between(a, b) => sub(&q3(b), &q3(a)),
+        Direction::Gradient(Gradient { corners, function }) => {
+            let f = linear(function);
+            let row = |k: usize| (sub(&q3(&corners[k]), &q3(&corners[0])), Q::from(&f[k] - &f[0]));
+            solve([row(1), row(2), row(3)]).expect("a tetrahedron")
+        }
     }
 }
 
@@ -270,7 +330,8 @@ fn edges(r: &mut Random, kind: usize) -> Point {
 /// A symbolic point of any sort, with its exact coordinates.
 pub fn symbolic(r: &mut Random, kind: usize, near: &[f64; 3]) -> (Point, Q3) {
     loop {
-        let x = match r.below(7) {
+        let x = match r.below(8) {
+            7 => zero(r, kind),
             0 => Point::Vertex(vector(r, kind)),
             1 => Point::EdgePlane { a: vector(r, kind), b: vector(r, kind), p: plane(r, kind, near) },
             2 => {

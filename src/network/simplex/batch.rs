@@ -6,7 +6,7 @@
 
 use super::data::{Kind, LocalCell, LocalEdge, LocalFace, LocalFunction, LocalHalfFace, LocalPlane, LocalVertex};
 use super::data::{Scratch, SimplexComplex};
-use super::{arrangement, check, interface};
+use super::{Found, arrangement, check, find_table, interface};
 use crate::base::{Csr, Error, Status, parallel};
 use std::ops::Range;
 
@@ -181,6 +181,11 @@ impl SimplexBatch {
     /// Those of the simplex that a cell belongs to.
     pub fn values_at_cell(&self, c: LocalCell) -> &[f64] {
         self.values_of(self.first_cell.partition_point(|first| *first <= c) - 1)
+    }
+
+    /// What the look-up tables have for a simplex; `None` if its complex was constructed.
+    pub fn found(&self, simplex: usize) -> Option<Found> {
+        find_table(self.all.kind, self.all.dim, self.values_of(simplex))
     }
 
     /// IA: the sign of every function in every cell, cell by cell.

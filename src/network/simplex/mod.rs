@@ -24,4 +24,4 @@ pub use data::{
 };
 pub use interface::{interface, interface_incremental};
 pub use table_view::{View, ViewFace};
-pub use tables::{Found, find_table};
+pub use tables::{ENTRIES, Found, PERMUTATIONS, SYMMETRIES, find_table};

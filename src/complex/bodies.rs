@@ -1,8 +1,8 @@
-//! Which component of the input each cell belongs to: cells that share a plane face are parts of one body, and a body is
+//! Which component of the input each cell belongs to: cells that share a face on a plane (or level) are parts of one body, and a body is
 //! named by the component of the outer shell around it.
 
+use super::{Complex, SupportId};
 use crate::base::{ComponentId, Error, Result, SharedUnionFind};
-use crate::complex::{Complex, SupportId};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU32, Ordering};
 
@@ -14,7 +14,7 @@ const LEAST: usize = 1 << 13;
 pub fn assign_components(c: &mut Complex) -> Result<()> {
     let count = c.cell_shells.len() - 1;
     let bodies = SharedUnionFind::new(count);
-    // Faces of planes come behind those of triangles.
+    // All other faces come behind those of triangles.
     let surface = c.face_support.partition_point(|s| matches!(s, SupportId::Triangle(_)));
     c.face_cells[surface..].par_iter().with_min_len(LEAST).for_each(|&[owner, neighbour]| {
         if neighbour.is_some() {
