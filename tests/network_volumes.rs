@@ -38,7 +38,7 @@ fn cut(simplex: [Corner; 4], form: &dyn Fn(&Corner) -> Rational, out: &mut Vec<[
     for i in 0..4 {
         for j in 0..i {
             if at[i].cmp0().is_ne() && at[i].cmp0() == at[j].cmp0().reverse() {
-                let t = Rational::from(&at[i] / Rational::from(&at[i] - &at[j]));
+                let t = &at[i] / Rational::from(&at[i] - &at[j]);
                 let between = |(a, b): (&Rational, &Rational)| Rational::from(b - a) * &t + a;
                 let point: Corner = simplex[i].iter().zip(&simplex[j]).map(between).collect();
                 for k in [i, j] {
@@ -179,7 +179,8 @@ fn spheres_on_small_grids() {
         assert_eq!(c.cell_count(), 2);
         // The ball does not touch the box: a wall of a void.
         assert_eq!(c.shell_faces.len(), 3);
-        let functions: [&dyn Fn(&[f64; 3]) -> f64; 3] = [&ball, &outer, &half];
+        type Function<'a> = &'a dyn Fn(&[f64; 3]) -> f64;
+        let functions: [Function; 3] = [&ball, &outer, &half];
         let three = evaluate(&grid, &functions.map(|f| move |x: &[f64; 3]| f(x)));
         for kind in KINDS {
             compare(&domain, &three, kind);

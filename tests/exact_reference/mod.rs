@@ -250,7 +250,7 @@ fn zero_place(zero: &Zero) -> Option<Q3> {
             2 => leibniz::<2>(&std::array::from_fn(|i| std::array::from_fn(|j| at(i, j)))),
             _ => leibniz::<3>(&std::array::from_fn(|i| std::array::from_fn(|j| at(i, j)))),
         };
-        if column % 2 == 0 { w } else { -w }
+        if column.is_multiple_of(2) { w } else { -w }
     };
     let weights: Vec<Q> = (0..=n).map(minor).collect();
     if weights.iter().any(|w| *w == 0 || (*w > 0) != (weights[0] > 0)) {
