@@ -1,16 +1,10 @@
-/* lap_arrangement_* and the surfaces made from them: options, bad input, cubes in every position, every view with NULL, callbacks that call back. */
-#include "api.h"
+/* lap_arrangement_* and the surfaces made from them: options, bad input, cubes in every position, every view with NULL. */
+#include "arrangement.h"
 
 #include <math.h>
 #include <string.h>
 
-/* A cube of size 2 with its lowest corner somewhere, perhaps inside out. */
-typedef struct box {
-    double xyz[24];
-    int32_t indices[36];
-} box;
-
-static lap_operand boxed(box *b, double x, double y, double z, int reversed)
+lap_operand boxed(box *b, double x, double y, double z, int reversed)
 {
     const double low[3] = {x, y, z};
     lap_operand o;
@@ -28,7 +22,7 @@ static lap_operand boxed(box *b, double x, double y, double z, int reversed)
     return o;
 }
 
-static lap_arrangement *arranged(lap_context *context, int64_t n, const lap_operand *operands)
+lap_arrangement *arranged(lap_context *context, int64_t n, const lap_operand *operands)
 {
     lap_arrangement *a = NULL;
     STATUS_IN(context, LAP_OK, lap_arrangement_new(context, n, operands, NULL, &a));
@@ -65,8 +59,7 @@ static int is_closed(const lap_surface *surface)
     return 1;
 }
 
-/* Whether a surface is closed and has that volume and Euler characteristic; frees it. */
-static void is(lap_context *context, lap_surface *surface, const char *volume, int64_t euler)
+void is_solid(lap_context *context, lap_surface *surface, const char *volume, int64_t euler)
 {
     const char *text = NULL;
     int64_t chi = -100;
@@ -80,18 +73,18 @@ static void is(lap_context *context, lap_surface *surface, const char *volume, i
     STATUS(LAP_OK, lap_surface_free(surface));
 }
 
-static void has(lap_context *context, const lap_arrangement *a, int32_t operation, const char *volume, int64_t euler)
+void operation_is(lap_context *context, const lap_arrangement *a, int32_t operation, const char *volume, int64_t euler)
 {
     lap_surface *surface = NULL;
     STATUS_IN(context, LAP_OK, lap_arrangement_extract(context, a, operation, 2, &surface));
-    is(context, surface, volume, euler);
+    is_solid(context, surface, volume, euler);
 }
 
 static void takes(lap_context *context, const lap_arrangement *a, const char *expression, const char *volume, int64_t euler)
 {
     lap_surface *surface = NULL;
     STATUS_IN(context, LAP_OK, lap_arrangement_extract_expression(context, a, expression, &surface));
-    is(context, surface, volume, euler);
+    is_solid(context, surface, volume, euler);
 }
 
 static void options(lap_context *context)
@@ -200,10 +193,10 @@ static void nothing(lap_context *context)
         if (i == 1) CHECK(first[1] == 0 && first[2] == 3 && first[3] == 6 && triangles[3] == 1 && gone[1] == 1 && gone[0] == 0);
         STATUS(LAP_OK, lap_arrangement_cell_volumes(a, &count, &volumes));
         CHECK(count == 1 && volumes[0] == 0);
-        has(context, a, LAP_EXTRACT_UNION, "0", 0);
-        has(context, a, LAP_EXTRACT_INTERSECTION, "0", 0);
-        has(context, a, LAP_EXTRACT_DIFFERENCE, "0", 0);
-        has(context, a, LAP_EXTRACT_RESOLVE, "0", 0);
+        operation_is(context, a, LAP_EXTRACT_UNION, "0", 0);
+        operation_is(context, a, LAP_EXTRACT_INTERSECTION, "0", 0);
+        operation_is(context, a, LAP_EXTRACT_DIFFERENCE, "0", 0);
+        operation_is(context, a, LAP_EXTRACT_RESOLVE, "0", 0);
         STATUS(LAP_OK, lap_arrangement_free(a));
     }
 }
@@ -291,13 +284,13 @@ static void crossing(lap_context *context)
     STATUS(LAP_ERR_BAD_ARGUMENT, lap_arrangement_stage(a, stages, &x, &seconds));
     STATUS(LAP_ERR_BAD_ARGUMENT, lap_arrangement_stage(a, -1, &x, &seconds));
 
-    has(context, a, LAP_EXTRACT_UNION, "15", 2);
-    has(context, a, LAP_EXTRACT_INTERSECTION, "1", 2);
-    has(context, a, LAP_EXTRACT_DIFFERENCE, "7", 2);
+    operation_is(context, a, LAP_EXTRACT_UNION, "15", 2);
+    operation_is(context, a, LAP_EXTRACT_INTERSECTION, "1", 2);
+    operation_is(context, a, LAP_EXTRACT_DIFFERENCE, "7", 2);
     /* Two balls that touch along a ring of six edges: 2 + 2 - 0. */
-    has(context, a, LAP_EXTRACT_SYMMETRIC_DIFFERENCE, "14", 4);
-    has(context, a, LAP_EXTRACT_AT_LEAST, "1", 2);
-    has(context, a, LAP_EXTRACT_RESOLVE, "15", 2);
+    operation_is(context, a, LAP_EXTRACT_SYMMETRIC_DIFFERENCE, "14", 4);
+    operation_is(context, a, LAP_EXTRACT_AT_LEAST, "1", 2);
+    operation_is(context, a, LAP_EXTRACT_RESOLVE, "15", 2);
     takes(context, a, "0 | 1", "15", 2);
     takes(context, a, " (1 - 0) ", "7", 2);
     takes(context, a, "0 ^ 1", "14", 4);
@@ -350,12 +343,12 @@ static void touching(lap_context *context)
         two[0] = boxed(&b[0], 0, 0, 0, 0);
         two[1] = boxed(&b[1], cases[i].x, cases[i].y, cases[i].z, cases[i].reversed);
         a = arranged(context, 2, two);
-        has(context, a, LAP_EXTRACT_UNION, cases[i].either, cases[i].chi_either);
-        has(context, a, LAP_EXTRACT_INTERSECTION, cases[i].both, cases[i].chi_both);
-        has(context, a, LAP_EXTRACT_DIFFERENCE, cases[i].first, cases[i].chi_first);
-        has(context, a, LAP_EXTRACT_SYMMETRIC_DIFFERENCE, cases[i].one, cases[i].chi_one);
-        has(context, a, LAP_EXTRACT_AT_LEAST, cases[i].both, cases[i].chi_both);
-        has(context, a, LAP_EXTRACT_RESOLVE, cases[i].sum, cases[i].chi_sum);
+        operation_is(context, a, LAP_EXTRACT_UNION, cases[i].either, cases[i].chi_either);
+        operation_is(context, a, LAP_EXTRACT_INTERSECTION, cases[i].both, cases[i].chi_both);
+        operation_is(context, a, LAP_EXTRACT_DIFFERENCE, cases[i].first, cases[i].chi_first);
+        operation_is(context, a, LAP_EXTRACT_SYMMETRIC_DIFFERENCE, cases[i].one, cases[i].chi_one);
+        operation_is(context, a, LAP_EXTRACT_AT_LEAST, cases[i].both, cases[i].chi_both);
+        operation_is(context, a, LAP_EXTRACT_RESOLVE, cases[i].sum, cases[i].chi_sum);
         STATUS(LAP_OK, lap_arrangement_free(a));
     }
     {
@@ -388,7 +381,7 @@ static void touching(lap_context *context)
             CHECK(of_patch[k] == -1 && of_cell[2 * k] == -1 && of_cell[2 * k + 1] == -1);
             CHECK(offsets[k + 1] == 2 * (k + 1) && reversed[2 * k] == 0 && reversed[2 * k + 1] == 1 && operands[2 * k + 1] == 0);
         }
-        has(context, a, LAP_EXTRACT_UNION, "0", 0);
+        operation_is(context, a, LAP_EXTRACT_UNION, "0", 0);
         STATUS(LAP_OK, lap_arrangement_free(a));
     }
 }
@@ -409,8 +402,8 @@ static void expressions(lap_context *context)
     a = arranged(context, 3, three);
     takes(context, a, "(0 | 1) & !2", "8", 2);
     takes(context, a, "0 & 1 & 2", "2", 2);
-    has(context, a, LAP_EXTRACT_INTERSECTION, "2", 2);
-    has(context, a, LAP_EXTRACT_AT_LEAST, "6", 2);
+    operation_is(context, a, LAP_EXTRACT_INTERSECTION, "2", 2);
+    operation_is(context, a, LAP_EXTRACT_AT_LEAST, "6", 2);
     for (i = 0; i < sizeof bad / sizeof *bad; ++i) {
         surface = (lap_surface *)&surface;
         STATUS(LAP_ERR_BAD_ARGUMENT, lap_arrangement_extract_expression(context, a, bad[i], &surface));
@@ -431,151 +424,8 @@ static void expressions(lap_context *context)
     STATUS(LAP_ERR_NULL_POINTER, lap_arrangement_extract(context, a, LAP_EXTRACT_UNION, 1, NULL));
     STATUS(LAP_ERR_NULL_POINTER, lap_arrangement_extract(context, NULL, LAP_EXTRACT_UNION, 1, &surface));
     STATUS_IN(context, LAP_OK, lap_arrangement_extract(context, a, LAP_EXTRACT_AT_LEAST, 1000, &surface));
-    is(context, surface, "0", 0);
+    is_solid(context, surface, "0", 0);
     STATUS(LAP_OK, lap_arrangement_free(a));
-}
-
-/* What a callback does meanwhile. */
-typedef struct caller {
-    lap_context *context, *other;
-    const lap_arrangement *arrangement;
-    int64_t operands;
-    int asked, take_unbounded;
-} caller;
-
-/* Inside exactly one; and calls back: with the context that is in use, with the handle alone, and with another context. */
-static int32_t inside_one(void *user, int32_t cell, int64_t n, const int32_t *winding)
-{
-    caller *c = (caller *)user;
-    int64_t i, inside = 0, cells = 0;
-    const double *volumes = NULL;
-    const char *text = NULL;
-    lap_surface *surface = NULL;
-
-    CHECK(cell == c->asked && n == c->operands);
-    ++c->asked;
-    for (i = 0; i < n; ++i) inside += winding[i] > 0;
-    if (c->context != NULL) {
-        box b;
-        const lap_operand one = boxed(&b, 0, 0, 0, 0);
-        lap_arrangement *a = NULL;
-        STATUS(LAP_ERR_BUSY, lap_arrangement_extract(c->context, c->arrangement, LAP_EXTRACT_UNION, 0, &surface));
-        STATUS(LAP_ERR_BUSY, lap_arrangement_new(c->context, 1, &one, NULL, &a));
-        STATUS(LAP_ERR_BUSY, lap_arrangement_cell_volume_exact(c->context, c->arrangement, cell, &text));
-        STATUS(LAP_ERR_BUSY, lap_context_free(c->context));
-        /* These start threads of their own. */
-        STATUS(LAP_OK, lap_arrangement_cell_volumes(c->arrangement, &cells, &volumes));
-        CHECK(cell < cells && (cell == 0) == (volumes[cell] == 0));
-        STATUS_IN(c->other, LAP_OK, lap_arrangement_extract(c->other, c->arrangement, LAP_EXTRACT_UNION, 0, &surface));
-        is(c->other, surface, "15", 2);
-        STATUS_IN(c->other, LAP_OK, lap_arrangement_new(c->other, 1, &one, NULL, &a));
-        has(c->other, a, LAP_EXTRACT_UNION, "8", 2);
-        STATUS(LAP_OK, lap_arrangement_free(a));
-    }
-    return inside == 1 || (cell == 0 && c->take_unbounded);
-}
-
-static int32_t go_on(void *user, const char *stage, double fraction)
-{
-    (void)stage;
-    (void)fraction;
-    ++*(int *)user;
-    return 0;
-}
-
-static void callbacks(lap_context *context)
-{
-    box b[2];
-    lap_operand two[2];
-    caller c;
-    lap_surface *surface = NULL;
-    uint8_t table[4] = {0, 0, 0, 0};
-    const int32_t *offsets = NULL;
-    lap_arrangement *a = NULL;
-    int threads, watched = 0, i;
-
-    two[0] = boxed(&b[0], 0, 0, 0, 0);
-    two[1] = boxed(&b[1], 1, 1, 1, 0);
-    memset(&c, 0, sizeof c);
-    c.operands = 2;
-    STATUS(LAP_OK, lap_context_new(&c.other));
-    for (threads = 1; threads <= 3; ++threads) {
-        STATUS_IN(context, LAP_OK, lap_context_set_threads(context, threads));
-        STATUS_IN(context, LAP_OK, lap_context_set_progress(context, threads == 2 ? go_on : NULL, &watched));
-        a = arranged(context, 2, two);
-        c.arrangement = a;
-        c.context = context;
-        c.asked = 0;
-        STATUS_IN(context, LAP_OK, lap_arrangement_extract_callback(context, a, inside_one, &c, &surface));
-        CHECK(c.asked == 4);
-        is(context, surface, "14", 4);
-        if (threads < 3) STATUS(LAP_OK, lap_arrangement_free(a));
-    }
-    CHECK(watched > 0);
-    STATUS_IN(context, LAP_OK, lap_context_set_threads(context, 1));
-    c.context = NULL;
-    c.asked = 0;
-    c.take_unbounded = 1;
-    STATUS(LAP_ERR_BAD_ARGUMENT, lap_arrangement_extract_callback(context, a, inside_one, &c, &surface));
-    CHECK(surface == NULL && has_message(context));
-    STATUS(LAP_ERR_NULL_POINTER, lap_arrangement_extract_callback(context, a, NULL, NULL, &surface));
-    STATUS(LAP_ERR_NULL_POINTER, lap_arrangement_extract_callback(context, a, inside_one, &c, NULL));
-    STATUS(LAP_ERR_NULL_POINTER, lap_arrangement_extract_callback(context, NULL, inside_one, &c, &surface));
-
-    STATUS(LAP_OK, lap_arrangement_cells(a, NULL, &offsets, NULL, NULL));
-    for (i = 0; i < 4; ++i) table[i] = offsets[i + 1] - offsets[i] == 2 ? 255 : 0;
-    STATUS_IN(context, LAP_OK, lap_arrangement_extract_table(context, a, 4, table, &surface));
-    is(context, surface, "1", 2);
-    STATUS(LAP_ERR_BAD_ARGUMENT, lap_arrangement_extract_table(context, a, 3, table, &surface));
-    STATUS(LAP_ERR_BAD_ARGUMENT, lap_arrangement_extract_table(context, a, -4, table, &surface));
-    table[0] = 1;
-    STATUS(LAP_ERR_BAD_ARGUMENT, lap_arrangement_extract_table(context, a, 4, table, &surface));
-    CHECK(surface == NULL && has_message(context));
-    STATUS(LAP_ERR_NULL_POINTER, lap_arrangement_extract_table(context, a, 4, NULL, &surface));
-    STATUS(LAP_ERR_NULL_POINTER, lap_arrangement_extract_table(context, a, 4, table, NULL));
-    STATUS(LAP_ERR_NULL_POINTER, lap_arrangement_extract_table(context, NULL, 4, table, &surface));
-    STATUS(LAP_OK, lap_arrangement_free(a));
-    STATUS(LAP_OK, lap_context_free(c.other));
-}
-
-/* Cancels at the n-th call, and remembers how many there were. */
-typedef struct stopper {
-    int calls, at;
-    double fraction;
-} stopper;
-
-static int32_t stop_at(void *user, const char *stage, double fraction)
-{
-    stopper *s = (stopper *)user;
-    CHECK(stage[0] != 0 && fraction >= s->fraction && fraction <= 1);
-    s->fraction = fraction;
-    return s->calls++ == s->at;
-}
-
-static void cancel(lap_context *context)
-{
-    box b[2];
-    lap_operand two[2];
-    stopper s = {0, -1, 0};
-    lap_arrangement *a = NULL;
-    int all, i;
-
-    two[0] = boxed(&b[0], 0, 0, 0, 0);
-    two[1] = boxed(&b[1], 1, 1, 1, 0);
-    STATUS_IN(context, LAP_OK, lap_context_set_progress(context, stop_at, &s));
-    a = arranged(context, 2, two);
-    STATUS(LAP_OK, lap_arrangement_free(a));
-    all = s.calls;
-    CHECK(all > 5);
-    for (i = 0; i < all; ++i) {
-        s.calls = 0;
-        s.at = i;
-        s.fraction = 0;
-        a = (lap_arrangement *)&a;
-        STATUS(LAP_ERR_CANCELLED, lap_arrangement_new(context, 2, two, NULL, &a));
-        CHECK(a == NULL && s.calls == i + 1);
-    }
-    STATUS_IN(context, LAP_OK, lap_context_set_progress(context, NULL, NULL));
 }
 
 static void null_pointers(lap_context *context)
@@ -634,8 +484,7 @@ void test_arrangement(void)
     crossing(context);
     touching(context);
     expressions(context);
-    callbacks(context);
-    cancel(context);
     null_pointers(context);
     STATUS(LAP_OK, lap_context_free(context));
+    test_arrangement_callbacks();
 }
