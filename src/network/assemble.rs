@@ -13,6 +13,7 @@ use super::simplex::Kind;
 use crate::base::parallel::{concat, offsets, ranges, write_parts};
 use crate::base::{Csr, Error, FunctionId, NodeId, Result, Status, VertexId};
 use crate::exact::{InTetrahedron, InTriangle, Row, round_symbolic};
+use rayon::prelude::*;
 
 /// Points in one task at least.
 const LEAST: usize = 1 << 10;
@@ -54,7 +55,7 @@ fn unify(parts: &[Pieces]) -> (Vec<(u32, u32)>, Vec<Vec<u32>>) {
         let points = &parts[p as usize].facet_points;
         (points.nodes[i as usize], points.functions.row(i as usize))
     };
-    all.sort_unstable_by(|a, b| key(a).cmp(&key(b)).then(a.cmp(b)));
+    all.par_sort_unstable_by(|a, b| key(a).cmp(&key(b)).then(a.cmp(b)));
     let mut numbers: Vec<Vec<u32>> = parts.iter().map(|p| vec![0; p.facet_points.nodes.len()]).collect();
     let mut first = Vec::new();
     for same in all.chunk_by(|a, b| key(a) == key(b)) {

@@ -17,6 +17,7 @@ use super::patches::{HalfPatch, Patches};
 use super::radial::{self, Around};
 use crate::base::parallel::map_ranges;
 use crate::base::{Csr, EdgeId, PatchId, PolygonId, Result, TetId, VertexId};
+use rayon::prelude::*;
 
 /// The chains of a network, numbered by their lowest edges.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -144,20 +145,36 @@ fn link(setting: &Setting, edges: &Edges, patches: &Patches, corners: &mut Vec<V
         let [u, v] = edges.ends_of(e);
         ends.extend([(u, k as u32, 0), (v, k as u32, 1)]);
     }
-    ends.sort_unstable();
-    let mut links = vec![[NONE; 2]; patches.chain_edges.len()];
-    let mut around = Vec::new();
-    for here in ends.chunk_by(|a, b| a.0 == b.0) {
-        let v = here[0].0;
-        if let &[(_, a, side_a), (_, b, side_b)] = here {
-            let [from, to] = [a, b].map(|k| patches.chain_edges[k as usize]);
-            if passes(setting, edges, patches, v, from, to, &mut around) {
-                links[a as usize][side_a as usize] = b;
-                links[b as usize][side_b as usize] = a;
-                continue;
+    ends.par_sort_unstable();
+    // What begins in each part of the list: whole vertices.
+    let vertex_at = |at: usize| ends.get(at).map_or(VertexId::NONE, |end| end.0);
+    let begin = |at: usize| {
+        let started = at > 0 && vertex_at(at - 1) == vertex_at(at);
+        if started { at + ends[at..].iter().take_while(|end| end.0 == ends[at].0).count() } else { at }
+    };
+    let parts = map_ranges(ends.len(), 1 << 10, |range| {
+        let (mut found, mut corners, mut around) = (Vec::new(), Vec::new(), Vec::new());
+        let whole = begin(range.start)..begin(range.end).max(begin(range.start));
+        for here in ends[whole].chunk_by(|a, b| a.0 == b.0) {
+            let v = here[0].0;
+            if let &[(_, a, side_a), (_, b, side_b)] = here {
+                let [from, to] = [a, b].map(|k| patches.chain_edges[k as usize]);
+                if passes(setting, edges, patches, v, from, to, &mut around) {
+                    found.push([(a, side_a), (b, side_b)]);
+                    continue;
+                }
             }
+            corners.push(v);
         }
-        corners.push(v);
+        (found, corners)
+    });
+    let mut links = vec![[NONE; 2]; patches.chain_edges.len()];
+    for (found, here) in parts {
+        for [(a, side_a), (b, side_b)] in found {
+            links[a as usize][side_a as usize] = b;
+            links[b as usize][side_b as usize] = a;
+        }
+        corners.extend(here);
     }
     links
 }

@@ -18,8 +18,10 @@ use super::carrier::{edge_carrier, node_count, on_boundary};
 use super::edges::{Edges, walk};
 use super::{Domain, Network};
 use crate::base::parallel::{concat, map_ranges};
-use crate::base::{ComponentId, EdgeId, PatchId, PolygonId, SharedUnionFind, TetId, UnionFind, VertexId};
+use crate::base::{ComponentId, EdgeId, PatchId, PolygonId, SharedUnionFind, TetId, VertexId};
 use crate::exact::Sign;
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicU32, Ordering};
 
 /// One side of a patch: `patch << 1 | front`; the front is where the normals of its polygons point to (of a patch whose
 /// polygons do not agree, the normal of its lowest polygon).
@@ -68,7 +70,7 @@ pub struct Patches {
     /// The component of each patch.
     pub component: Vec<ComponentId>,
     pub component_count: usize,
-    /// A patch at each vertex: that of its lowest polygon.
+    /// The lowest patch at each vertex.
     pub at_vertex: Vec<PatchId>,
 }
 
@@ -206,26 +208,41 @@ fn at_boundary(network: &Network, domain: &Domain, [u, v]: [VertexId; 2], around
     node_count(&carrier) < network.dim && on_boundary(domain, &carrier, around)
 }
 
-/// Patches with a common vertex.
+/// Patches with a common vertex. Of the patches at a vertex each meets, in whatever order they come, one that is there or was there before a lower
+/// one; so all are joined, and the lowest stays.
 fn find_components(network: &Network, patches: &mut Patches) {
-    let mut at_vertex = vec![PatchId::NONE; network.vertex_count()];
-    let mut classes = UnionFind::new(patches.len());
-    let mut start = 0;
-    for (&end, &patch) in network.polygons.offsets[1..].iter().zip(&patches.of) {
-        for v in &network.polygons.items[start..end as usize] {
-            let here = &mut at_vertex[v.at()];
-            if here.is_none() {
-                *here = patch;
-            } else if *here != patch {
-                classes.union(here.at(), patch.at());
+    let at_vertex: Vec<AtomicU32> =
+        (0..network.vertex_count()).into_par_iter().with_min_len(1 << 14).map(|_| AtomicU32::new(u32::MAX)).collect();
+    let classes = SharedUnionFind::new(patches.len());
+    let alone = rayon::current_num_threads() == 1;
+    map_ranges(network.polygon_count(), 1 << 13, |range| {
+        let mut start = network.polygons.offsets[range.start] as usize;
+        let ends = &network.polygons.offsets[range.start + 1..=range.end];
+        for (&end, &patch) in ends.iter().zip(&patches.of[range]) {
+            for v in &network.polygons.items[start..end as usize] {
+                let place = &at_vertex[v.at()];
+                let mut here = place.load(Ordering::Relaxed);
+                if here == patch.0 {
+                    continue;
+                }
+                if patch.0 < here {
+                    if alone {
+                        place.store(patch.0, Ordering::Relaxed);
+                    } else {
+                        here = place.fetch_min(patch.0, Ordering::Relaxed);
+                    }
+                }
+                if here != u32::MAX && here != patch.0 {
+                    classes.union(here as usize, patch.at());
+                }
             }
+            start = end as usize;
         }
-        start = end as usize;
-    }
-    let (of, count) = classes.labels();
+    });
+    let (of, lowest) = classes.labels(|_| true);
     patches.component = of.into_iter().map(ComponentId).collect();
-    patches.component_count = count;
-    patches.at_vertex = at_vertex;
+    patches.component_count = lowest.len();
+    patches.at_vertex = at_vertex.into_iter().map(|patch| PatchId(patch.into_inner())).collect();
 }
 
 /// Finds which polygons of patches without a normal are turned, and which patches have one side only: for their form, or because one
