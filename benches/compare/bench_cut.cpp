@@ -1,16 +1,14 @@
 // bench_cut: the library and what a C++ user would otherwise take, side by side. `bench_cut --help` says how to use it.
 //
-// Every contestant runs in a process of its own on the same arrays, one after the other, and the whole list twice, so that
-// what else the machine does is less likely to hit one contestant alone. What counts are the ratios of one run.
+// Every contestant runs in a process of its own on the same arrays (contest.hpp). What counts are the ratios of one run.
 #include "arguments.hpp"
+#include "contest.hpp"
 #include "contestants.hpp"
 #include "icosphere.hpp"
-#include "isolate.hpp"
 #include "planes.hpp"
 
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
 #include <functional>
 #include <iostream>
 #include <stdexcept>
@@ -152,19 +150,6 @@ nlohmann::json measure(const Options& options, const Contestant& contestant) {
   return result;
 }
 
-// Of two results of one contestant: the times are the least, the memory is the most. A failure stays.
-void join(nlohmann::json& first, const nlohmann::json& second) {
-  if (first.contains("error")) return;
-  if (second.contains("error")) {
-    first = second;
-    return;
-  }
-  for (const char* key : {"seconds", "seconds_with_moments", "seconds_prepared", "seconds_moved"})
-    if (first.contains(key)) first[key] = std::min(first[key].get<double>(), second[key].get<double>());
-  first["memory_bytes"] = std::max(first["memory_bytes"].get<long long>(), second["memory_bytes"].get<long long>());
-  first["runs"] = first["runs"].get<long>() + second["runs"].get<long>();
-}
-
 void print(const nlohmann::json& report) {
   std::printf("%s (%lld triangles), %s (%lld planes)\n", report["mesh"].get<std::string>().c_str(),
               report["triangles"].get<long long>(), report["plane_set"].get<std::string>().c_str(),
@@ -210,11 +195,9 @@ int bench(const Options& options) {
     for (const Contestant& peer : all_peers())
       if (peer.name == name) contestants.push_back(peer);
 
-  std::vector<nlohmann::json> results;
-  for (const Contestant& contestant : contestants)
-    results.push_back(isolated(limit, [&] { return measure(options, contestant); }));
-  for (std::size_t i = 0; i < contestants.size(); ++i)
-    if (!results[i].contains("error")) join(results[i], isolated(limit, [&] { return measure(options, contestants[i]); }));
+  std::vector<Work> works;
+  for (const Contestant& contestant : contestants) works.push_back([&] { return measure(options, contestant); });
+  std::vector<nlohmann::json> results = contest(limit, works);
   bool ours_failed = false;
   for (std::size_t i = 0; i < contestants.size(); ++i) {
     results[i]["name"] = contestants[i].name;
@@ -222,12 +205,7 @@ int bench(const Options& options) {
     report["results"].push_back(std::move(results[i]));
   }
   print(report);
-  if (!options.json.empty()) {
-    std::ofstream file(options.json);
-    file << report.dump(2) << '\n';
-    file.close();
-    if (!file) throw std::runtime_error(options.json + ": cannot be written");
-  }
+  if (!options.json.empty()) write_report(options.json, report);
   return ours_failed ? 1 : 0;
 }
 

@@ -1,13 +1,17 @@
 """Prints the results that scripts/bench left in a folder as Markdown: tables.py FOLDER.
 
-Every ratio is a peer's time divided by the library's on one thread, both from one run of bench_cut: 40 x means that the peer
-takes 40 times as long.
+Of cuts, every ratio is a peer's time divided by the library's on one thread, both from one run of bench_cut: 40 x means that the peer
+takes 40 times as long. Of booleans it is the other way round, as their goals are: 0.35 means that the library takes 35 % of the peer's time.
 """
 import json
 import pathlib
 import sys
 
 PEERS = {"pmp-epick": "PMP, rounded", "pmp-epeck": "PMP, exact", "nef": "Nef, exact"}
+
+# What the library is to stay below: its time divided by corefinement's, or ms, or MB; and what two threads are to gain.
+BOOLEAN_GOALS = {"two bunnies": "0.35", "two rocker-arms": "0.7", "two cubes of squares": "0.3", "50 cubes": "100 ms",
+                 "two spheres": "0.35, 500 MB, 1.5 x"}
 
 
 def read(folder, table):
@@ -36,12 +40,19 @@ def ours(one, key="seconds"):
     return f"failed: {one['error']}" if "error" in one else ms(one[key])
 
 
+def failure(one):
+    """Why there is no result; nothing if there is one."""
+    if "error" not in one:
+        return ""
+    return f"> {one['limit_seconds']:.0f} s" if "limit_seconds" in one else f"failed: {one['error']}"
+
+
 def peer(one, base):
     """Time and ratio; what is wrong, if anything is."""
     if one is None:
         return ""
     if "error" in one:
-        return f"> {one['limit_seconds']:.0f} s" if "limit_seconds" in one else f"failed: {one['error']}"
+        return failure(one)
     text = ms(one["seconds"])
     if "error" not in base:
         ratio = one["seconds"] / base["seconds"]
@@ -102,6 +113,32 @@ def goals(reports):
     print("\nEach row: `build/bench/bin/bench_cut MESH --grid N N N` (or `--random N`) `--peers none --repeat R`, as in scripts/bench.")
 
 
+def wrong_union(one, base):
+    """What differs between a peer's union and the library's, if anything does."""
+    if abs(one["volume"] - base["volume"]) <= 1e-9 * abs(base["volume"]):
+        return ""
+    return f", volume {one['volume']:.12g} instead of {base['volume']:.12g}"
+
+
+def booleans(reports):
+    print("\n## Booleans\n\nUnions of meshes, times in ms on one thread; ratio: Lapidary's time divided by that of CGAL's corefinement; what two "
+          "threads gain; the peak of Lapidary's memory in MB, program and input included.\n")
+    head(["case"], ["triangles", "Lapidary", "CGAL", "ratio", "goal", "two threads", "MB"])
+    for report in reports:
+        by_name = results(report)
+        one, two, cgal = (by_name[name] for name in ("lapidary-1", "lapidary-2", "corefinement"))
+        ratio = gain = peak = ""
+        theirs = failure(cgal) or ms(cgal["seconds"])
+        if "error" not in one:
+            peak = f"{one['peak_bytes'] / 1e6:.0f}"
+            gain = f"{one['seconds'] / two['seconds']:.2f} x" if "error" not in two else ours(two)
+            if "error" not in cgal:
+                ratio = f"{one['seconds'] / cgal['seconds']:.2f}"
+                theirs += wrong_union(cgal, one)
+        row(report["case"], report["triangles"], ours(one), theirs, ratio, BOOLEAN_GOALS.get(report["case"], ""), gain, peak)
+    print("\nThe commands are those of scripts/bench: `build/bench/bin/bench_boolean CASE`.")
+
+
 def goals_of(folder):
     """Files goal-NUMBER-MILLISECONDS.json."""
     return [(json.loads(path.read_text()), path.stem.split("-")[2]) for path in sorted(folder.glob("goal-*.json"))]
@@ -113,6 +150,7 @@ def main():
     growth(read(folder, "planes"), "planes")
     growth(read(folder, "triangles"), "triangles")
     goals(goals_of(folder))
+    booleans(read(folder, "boolean"))
 
 
 main()
