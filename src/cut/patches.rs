@@ -14,7 +14,7 @@ use crate::complex::HalfFace;
 use crate::complex::shells::Joined;
 use crate::exact::counters;
 use crate::mesh::TriMesh;
-use crate::mesh::shells::{FirstUse, has_fans};
+use crate::mesh::shells::{FirstUse, has_fans, neighbours_are_near};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -67,24 +67,29 @@ pub fn join_whole(
     let classes = SharedUnionFind::new(2 * face_count);
     let left = edges_left(mesh, classified, cut);
     let is_left = |e: EdgeId| left[e.at() / 64] >> (e.at() % 64) & 1 != 0;
-    let first_use = FirstUse::new(&mesh.edge_uses);
-    // Half-faces `2 f` of whole faces; what lies behind them is nobody's here.
-    classes.join_blocks(LEAST, |range, block| {
-        let faces = range.start.div_ceil(2)..range.end.div_ceil(2).min(whole.triangles.len());
-        for f in faces {
-            let t = whole.triangles[f];
-            for e in mesh.triangle_edges[t.at()] {
-                if is_left(e) {
-                    continue;
-                }
-                let first = first_use.of(e);
-                if first != t {
-                    let back = HalfFace::new(whole.face[first.at()], false);
-                    block.union(back.at(), HalfFace::new(FaceId::of(f), false).at());
+    let back = |t: TriangleId| HalfFace::new(whole.face[t.at()], false).at();
+    if neighbours_are_near(&mesh.edge_uses) {
+        let first_use = FirstUse::new(&mesh.edge_uses);
+        // Half-faces `2 f` of whole faces; what lies behind them is nobody's here.
+        classes.join_blocks(LEAST, |range, block| {
+            let faces = range.start.div_ceil(2)..range.end.div_ceil(2).min(whole.triangles.len());
+            for t in faces.map(|f| whole.triangles[f]) {
+                for e in mesh.triangle_edges[t.at()].into_iter().filter(|&e| !is_left(e)) {
+                    let first = first_use.of(e);
+                    if first != t {
+                        block.union(back(first), back(t));
+                    }
                 }
             }
-        }
-    });
+        });
+    } else {
+        map_ranges(mesh.edges.len(), LEAST, |range| {
+            for e in range.map(EdgeId::of).filter(|&e| !is_left(e)) {
+                let [a, b] = [0, 1].map(|i| back(mesh.edge_uses.row(e)[i].triangle));
+                classes.union(a, b);
+            }
+        });
+    }
     let open: Vec<AtomicU64> = (0..(first_chord_piece as usize).div_ceil(64)).map(|_| AtomicU64::new(0)).collect();
     let parts = map_ranges(left.len(), LEAST / 64, |range| {
         let (mut uses, mut count) = (Vec::new(), 0);

@@ -109,23 +109,50 @@ pub struct Sets {
     pub lowest: Vec<u32>,
 }
 
-/// The edge-connected components. Triangles next to one another in the input mostly are on the surface, too: they are joined in blocks.
+/// The edge-connected components.
 pub fn components(triangle_edges: &[[EdgeId; 3]], edge_uses: &Csr<EdgeUse>) -> Sets {
     let sets = SharedUnionFind::new(triangle_edges.len());
-    let first_use = FirstUse::new(edge_uses);
-    sets.join_blocks(LEAST, |range, block| {
-        for t in range {
-            // Sides of triangles with equal corners, which are defects, are no edges.
-            for e in triangle_edges[t].into_iter().filter(|e| e.is_some()) {
-                let first = first_use.of(e).at();
-                if first != t {
-                    block.union(first, t);
+    if neighbours_are_near(edge_uses) {
+        let first_use = FirstUse::new(edge_uses);
+        sets.join_blocks(LEAST, |range, block| {
+            for t in range {
+                // Sides of triangles with equal corners, which are defects, are no edges.
+                for e in triangle_edges[t].into_iter().filter(|e| e.is_some()) {
+                    let first = first_use.of(e).at();
+                    if first != t {
+                        block.union(first, t);
+                    }
                 }
             }
-        }
-    });
+        });
+    } else {
+        map_ranges(edge_uses.len(), LEAST, |range| {
+            for e in range {
+                let uses = edge_uses.row(e);
+                for u in &uses[1..] {
+                    sets.union(uses[0].triangle.at(), u.triangle.at());
+                }
+            }
+        });
+    }
     let (of, lowest) = sets.labels(|_| true);
     Sets { of, lowest }
+}
+
+/// Whether triangles that share an edge are mostly close to one another in the list, as far as some of the edges tell. Then it is faster to join
+/// them triangle by triangle, in blocks; else edge by edge, since looking up a triangle's edges costs more than joining. The outcome is
+/// the same. (Icosphere of 1.3 million triangles, each one's four parts side by side: by triangles 13 % faster on
+/// two threads, 11 % on one; its parts a quarter of the list apart: 18 % slower.)
+pub fn neighbours_are_near(edge_uses: &Csr<EdgeUse>) -> bool {
+    const ASKED: usize = 1 << 10;
+    const NEAR: u32 = 1 << 10;
+    let step = edge_uses.len().div_ceil(ASKED).max(1);
+    let asked = (0..edge_uses.len()).step_by(step);
+    let near = |&e: &usize| match edge_uses.row(e) {
+        [a, b] => b.triangle.0 - a.triangle.0 < NEAR,
+        _ => false,
+    };
+    4 * asked.clone().filter(near).count() >= 3 * asked.len()
 }
 
 /// The first use of edges, found in one step where every edge has two uses. Cost: a look at all offsets.
