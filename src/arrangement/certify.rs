@@ -6,6 +6,10 @@
 //! meet in common vertices and edges only, and between them are the winding numbers 0 and 1. Otherwise its constructed corners are rounded, and
 //! the next round begins. Only corners constructed in a round move in it, by half a unit in the last place, so where nothing meets nothing changes.
 //!
+//! From the second round on, what is in contact is snapped first ([`super::snap`]), and thin cells that rounding would break go over to a neighbour.
+//! Sheets nearly in one plane that bound a sliver (differences of nearly coplanar operands) may still entangle more with each round: then it ends,
+//! uncertified.
+//!
 //! Degenerate cases: corners that come to lie at one place become one; triangles without corners left go, and those whose corners come to lie
 //! on a line are dropped by the arrangement, which splits the edge opposite.
 //!
@@ -72,7 +76,8 @@ pub struct CertifyReport {
     pub snapped: usize,
     /// Cells hardly thicker than a unit, with corners that doubles do not have, that were left out or filled in.
     pub thin_cells: usize,
-    /// No point of the surface is further from where correct rounding had it, in any coordinate: the sum over rounds of the largest move of each.
+    /// The sum over rounds of the largest move of a coordinate by rounding in each, and of the distances within which was snapped: a bound
+    /// on how far the surface went from where correct rounding had it, but for what thin cells took away.
     pub largest_move: f64,
     /// Triangles of the correctly rounded surface, and of the result.
     pub triangles_before: usize,
