@@ -2,9 +2,10 @@
 //! extraction from it (the Mesh Arrangements paper, DESIGN §6).
 //!
 //! Stages in pipeline order: [`soup`] → [`intersect`] (with [`pair`], [`points`]) → [`clusters`] → [`crossings`] → [`triangulate`] →
-//! [`resolve`] → [`patches`] → [`cells`] (with [`nesting`]) → [`winding`] → [`extract`].
+//! [`resolve`] → [`patches`] → [`cells`] (with [`nesting`]) → [`winding`] → [`extract`] (→ [`certify`], with [`snap`]).
 
 pub mod cells;
+pub mod certify;
 pub mod clusters;
 pub mod crossings;
 pub mod data;
@@ -16,6 +17,7 @@ pub mod patches;
 pub mod planar;
 pub mod points;
 pub mod resolve;
+pub mod snap;
 pub mod soup;
 pub mod triangulate;
 pub mod volumes;
