@@ -1,7 +1,7 @@
 //! Arrangements of triangle meshes: the cells into which any number of meshes divide space, each with its winding-number vector; booleans are an
 //! extraction from it (the Mesh Arrangements paper, DESIGN §6).
 //!
-//! Stages in pipeline order: [`soup`] → [`intersect`] (with [`pair`], [`points`]) → [`clusters`] → [`crossings`] → [`triangulate`] →
+//! Stages in pipeline order: [`soup`] → [`intersect`] (with [`stars`], [`pair`], [`points`]) → [`clusters`] → [`crossings`] → [`triangulate`] →
 //! [`resolve`] → [`patches`] → [`cells`] (with [`nesting`]) → [`winding`] → [`extract`] (→ [`certify`], with [`snap`]).
 
 pub mod cells;
@@ -19,6 +19,7 @@ pub mod points;
 pub mod resolve;
 pub mod snap;
 pub mod soup;
+pub mod stars;
 pub mod triangulate;
 pub mod volumes;
 pub mod winding;
