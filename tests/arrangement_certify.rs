@@ -104,6 +104,8 @@ fn nearly_coplanar_grids() {
         }
     }
     println!("certified {certified:?}");
+    // How far differences and symmetric differences get: a step back shows here.
+    assert!(certified[0][2] >= 4 && certified[0][3] >= 2, "{certified:?}");
 }
 
 #[test]

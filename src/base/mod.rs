@@ -1,6 +1,7 @@
 //! The ground under the floors: typed ids, flat CSR arrays, errors with named culprits, boolean expressions as text, and the run control
 //! (progress, cancel, log) that every engine takes.
 
+pub mod bits;
 pub mod blocks;
 pub mod csr;
 pub mod error;

@@ -11,6 +11,7 @@
 
 use super::radial::{FaceUse, wedge_pairs};
 use super::{Complex, HalfFace, SupportId};
+use crate::base::bits::ones;
 use crate::base::csr::Walk;
 use crate::base::parallel::map_ranges;
 use crate::base::{CellId, Csr, EdgeId, Error, FaceId, PlaneId, Result, SharedUnionFind, ShellId};
@@ -82,17 +83,10 @@ impl<'a> OpenEdges<'a> {
         let (places, open) = self.low();
         let low = range.start.min(open)..range.end.min(open);
         let word = self.before.partition_point(|&n| n as usize <= low.start) - 1;
-        let bits = (word..self.words.len()).flat_map(|w| {
-            let mut bits = self.words[w];
-            std::iter::from_fn(move || {
-                let bit = bits.trailing_zeros() as usize;
-                bits &= bits.wrapping_sub(1);
-                (bit < 64).then(|| EdgeId::of(64 * w + bit))
-            })
-        });
+        let places_set = ones(64 * word, &self.words[word..]).map(EdgeId::of);
         let skip = low.start - self.before[word] as usize;
         let high = range.start.max(open)..range.end.max(open);
-        bits.skip(skip).take(low.len()).chain(high.map(move |n| EdgeId::of(n - open + places)))
+        places_set.skip(skip).take(low.len()).chain(high.map(move |n| EdgeId::of(n - open + places)))
     }
 }
 

@@ -8,6 +8,7 @@
 
 use super::classify::Classified;
 use super::edges::EdgePoints;
+use crate::base::bits::ones;
 use crate::base::parallel::{concat, map_ranges};
 use crate::base::{EdgeId, FaceId, SharedUnionFind, TriangleId};
 use crate::complex::HalfFace;
@@ -100,7 +101,7 @@ pub fn join_whole(
                 open[word].fetch_or(mask, Ordering::Relaxed);
             }
         };
-        for e in bits(64 * range.start, &left[range]) {
+        for e in ones(64 * range.start, &left[range]) {
             count += 1;
             let (first, last) = (e as u32 + points.first[e], e as u32 + points.first[e + 1]);
             for piece in first..=last {
@@ -150,16 +151,4 @@ fn edges_left(mesh: &TriMesh, classified: &Classified, cut: &[TriangleId]) -> Ve
         fans.filter(|&e| mesh.edge_uses.range(e).len() > 2).for_each(set);
     }
     left.into_iter().map(AtomicU64::into_inner).collect()
-}
-
-/// The places of the bits that are set, rising, the first word's from `base` on.
-fn bits(base: usize, words: &[u64]) -> impl Iterator<Item = usize> {
-    words.iter().enumerate().flat_map(move |(w, &word)| {
-        let mut rest = word;
-        std::iter::from_fn(move || {
-            let bit = rest.trailing_zeros() as usize;
-            rest &= rest.wrapping_sub(1);
-            (bit < 64).then_some(base + 64 * w + bit)
-        })
-    })
 }
