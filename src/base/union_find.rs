@@ -91,10 +91,8 @@ impl SharedUnionFind {
         let parent = &self.parent[..];
         let mut i = i as u32;
         loop {
+            // Of a root as of all that hang on one directly, without telling them apart.
             let up = parent[i as usize].load(Ordering::Relaxed);
-            if up == i {
-                return i as usize;
-            }
             let next = parent[up as usize].load(Ordering::Relaxed);
             if next == up {
                 return up as usize;
@@ -207,20 +205,27 @@ impl SharedUnionFind {
 pub struct Block<'a> {
     sets: &'a SharedUnionFind,
     start: usize,
+    /// Only for assertions.
     end: usize,
     later: Vec<[u32; 2]>,
 }
 
 impl Block<'_> {
+    /// Joins a position of the block with others that are not above it; with itself means not at all.
+    ///
+    /// Whether two are together already is a coin toss on a surface, so nothing asks: the lowest of the roots becomes the parent of all.
     #[inline]
-    pub fn union(&mut self, a: usize, b: usize) {
-        let parent = &self.sets.parent;
-        if a.min(b) < self.start || a.max(b) >= self.end {
-            self.later.push([a as u32, b as u32]);
-        } else if parent[a].load(Ordering::Relaxed) != parent[b].load(Ordering::Relaxed) {
-            // Nobody has left the block yet: roots are roots of this thread's alone.
-            let (a, b) = (self.sets.find(a), self.sets.find(b));
-            parent[a.max(b)].store(a.min(b) as u32, Ordering::Relaxed);
+    pub fn join(&mut self, at: usize, others: [usize; 3]) {
+        debug_assert!(at < self.end && others.iter().all(|&o| o <= at));
+        // Nobody has left the block yet: roots are roots of this thread's alone.
+        let root = |other: usize| self.sets.find(if other < self.start { at } else { other });
+        let [own, a, b, c] = [self.sets.find(at), root(others[0]), root(others[1]), root(others[2])];
+        let low = own.min(a).min(b.min(c));
+        for root in [own, a, b, c] {
+            self.sets.parent[root].store(low as u32, Ordering::Relaxed);
+        }
+        if others.iter().any(|&o| o < self.start) {
+            self.later.extend(others.iter().filter(|&&o| o < self.start).map(|&o| [o as u32, at as u32]));
         }
     }
 }
@@ -254,15 +259,19 @@ mod tests {
                 pairs.par_iter().for_each(|p| shared.union(p[0], p[1]));
                 let (of, roots) = shared.labels(|_| true);
                 assert_eq!((of, roots.len()), sets.labels());
-                // The same pairs, each with the block of its first position.
+                // Pairs in blocks, each with its higher position; some twice.
+                let down = |i: usize, step: usize| i - (i * 7919 + step) % (i.min(3 * step) + 1);
+                let others = |i: usize| [down(i, 5), if i.is_multiple_of(3) { down(i, 700) } else { i }, down(i, 5)];
+                let odd = |i: &usize| i % 2 == 1;
+                let mut sets = UnionFind::new(n);
+                for i in (0..n).filter(odd) {
+                    others(i).iter().for_each(|&o| _ = sets.union(i, o));
+                }
                 let shared = SharedUnionFind::new(n);
-                shared.join_blocks(1000, |range, block| {
-                    let here =
-                        pairs.partition_point(|p| p[0] < range.start)..pairs.partition_point(|p| p[0] < range.end);
-                    pairs[here].iter().for_each(|p| block.union(p[0], p[1]));
-                });
+                shared.join_blocks(1000, |range, block| range.filter(odd).for_each(|i| block.join(i, others(i))));
                 let (of, roots) = shared.labels(|_| true);
                 assert_eq!((of, roots.len()), sets.labels());
+                assert!(roots.len() > 10 && roots.len() < n / 2);
             });
         }
     }

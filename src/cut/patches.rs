@@ -75,12 +75,8 @@ pub fn join_whole(
         classes.join_blocks(LEAST, |range, block| {
             let faces = range.start.div_ceil(2)..range.end.div_ceil(2).min(whole.triangles.len());
             for t in faces.map(|f| whole.triangles[f]) {
-                for e in mesh.triangle_edges[t.at()].into_iter().filter(|&e| !is_left(e)) {
-                    let first = first_use.of(e);
-                    if first != t {
-                        block.union(back(first), back(t));
-                    }
-                }
+                let first = |e: EdgeId| back(if is_left(e) { t } else { first_use.of(e) });
+                block.join(back(t), mesh.triangle_edges[t.at()].map(first));
             }
         });
     } else {

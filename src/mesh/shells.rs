@@ -117,12 +117,7 @@ pub fn components(triangle_edges: &[[EdgeId; 3]], edge_uses: &Csr<EdgeUse>) -> S
         sets.join_blocks(LEAST, |range, block| {
             for t in range {
                 // Sides of triangles with equal corners, which are defects, are no edges.
-                for e in triangle_edges[t].into_iter().filter(|e| e.is_some()) {
-                    let first = first_use.of(e).at();
-                    if first != t {
-                        block.union(first, t);
-                    }
-                }
+                block.join(t, triangle_edges[t].map(|e| if e.is_some() { first_use.of(e).at() } else { t }));
             }
         });
     } else {
