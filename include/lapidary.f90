@@ -1209,7 +1209,7 @@ module lapidary
     !
     ! Outputs (each may be NULL; borrowed as the complex): count: the number of faces; cells: 2 × count, the owner
     ! (behind the face, on the side that its normal points away from), and the neighbour (before it), -1 outside the
-    ! solid.
+    ! solid (in the complex of an arrangement that may be either).
     !
     ! Errors: LAP_ERR_NULL_POINTER if complex is NULL. Threads: any. Cost: none.
     integer(c_int32_t) function lap_complex_face_cells(complex, count, cells) bind(c, name="lap_complex_face_cells")
@@ -1245,7 +1245,8 @@ module lapidary
   public :: lap_complex_cell_components
   interface
     ! The component of the input mesh (0 up to lap_mesh_counts' components) that each cell belongs to: that of the
-    ! surface which encloses it.
+    ! surface which encloses it. In the complex of an arrangement cells that are joined across faces have one number,
+    ! from 0.
     !
     ! Outputs (each may be NULL; borrowed as the complex): count: the number of cells; components: count.
     !
@@ -1485,7 +1486,8 @@ module lapidary
     ! (lap_mesh_set_triangle_ids, lap_cut_set_plane_ids). No two vertices have the same key, and no vertex has that of a
     ! face. Two complexes cut from parts of the same mesh by some of the same planes give a vertex that they share the
     ! same key, if both know all triangles that contain it: a block that is given every triangle which meets its closed
-    ! box, and the planes that bound it, does.
+    ! box, and the planes that bound it, does. (Arrangements promise less: a point where more triangles meet than are
+    ! needed to name it goes by those among which it was found first.)
     !
     ! Outputs (each may be NULL; borrowed as the complex): count; keys: 2 × count, the first number of a pair never
     ! negative. What the numbers are: the 7 high bits of the first are the kind of the point, then follow three numbers
@@ -1513,8 +1515,9 @@ module lapidary
     ! Outputs (each may be NULL; borrowed as the complex): count; keys: 2 × count, the first number of a pair never
     ! negative.
     !
-    ! Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_BAD_ARGUMENT for that of a network, LAP_ERR_INCONSISTENT
-    ! for input that intersects itself, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: linear at the first call, then none.
+    ! Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_BAD_ARGUMENT for that of a network or an arrangement,
+    ! LAP_ERR_INCONSISTENT for input that intersects itself, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: linear at the
+    ! first call, then none.
     integer(c_int32_t) function lap_complex_face_keys(complex, count, keys) bind(c, name="lap_complex_face_keys")
       import :: c_int32_t, c_int64_t, c_ptr
       type(c_ptr), value :: complex
@@ -3783,6 +3786,52 @@ module lapidary
     end function
   end interface
 
+  public :: lap_arrangement_complex
+  interface
+    ! The bounded cells as a complex on which all functions for lap_complex work but lap_complex_face_keys
+    ! (LAP_ERR_BAD_ARGUMENT). Its mesh is that of all operands: vertices and triangles count through them.
+    !
+    ! Cell c is cell c + 1 of the arrangement, and so has the winding numbers that lap_arrangement_windings gives for
+    ! that. Faces are those of the arrangement that divide, those parts of one triangle with the same births joined that
+    ! only the triangulation separates: with holes, by the lowest part. A face lies on the first triangle that it is a
+    ! part of (LAP_SUPPORT_TRIANGLE); there may be a cell on either of its sides, or on both. Vertices are those of the
+    ! arrangement that such faces have, rising. lap_arrangement_complex_places tells which.
+    !
+    ! complex: borrowed until the arrangement is freed; do not free it.
+    !
+    ! Errors: LAP_ERR_TOO_LARGE, LAP_ERR_NULL_POINTER, LAP_ERR_CANCELLED, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: at
+    ! the first call linear in the faces, with a sort of all edges, then none. Memory: some 200 bytes a face.
+    integer(c_int32_t) function lap_arrangement_complex(context, arrangement, &
+      complex) bind(c, name="lap_arrangement_complex")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value :: context
+      type(c_ptr), value :: arrangement
+      type(c_ptr), intent(inout), optional :: complex
+    end function
+  end interface
+
+  public :: lap_arrangement_complex_places
+  interface
+    ! Where the vertices and faces of the complex of an arrangement come from. Only after lap_arrangement_complex.
+    !
+    ! Outputs (each may be NULL; borrowed until the arrangement is freed): n_vertices: of the complex; vertices: for
+    ! each that of the arrangement; n_faces: of the complex; offsets: n_faces + 1; faces: face f of the complex consists
+    ! of the faces faces[offsets[f]] up to, not including, faces[offsets[f + 1]] of the arrangement.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER if arrangement is NULL, LAP_ERR_BAD_ARGUMENT if there is no complex yet. Threads:
+    ! any. Cost: none.
+    integer(c_int32_t) function lap_arrangement_complex_places(arrangement, n_vertices, vertices, n_faces, offsets, &
+      faces) bind(c, name="lap_arrangement_complex_places")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: arrangement
+      integer(c_int64_t), intent(inout), optional :: n_vertices
+      type(c_ptr), intent(inout), optional :: vertices
+      integer(c_int64_t), intent(inout), optional :: n_faces
+      type(c_ptr), intent(inout), optional :: offsets
+      type(c_ptr), intent(inout), optional :: faces
+    end function
+  end interface
+
   public :: lap_arrangement_extract
   interface
     ! The surface of a boolean of all operands: solid, which is to say that its triangles meet in common vertices and
@@ -3986,6 +4035,23 @@ module lapidary
       type(c_ptr), value :: context
       type(c_ptr), value :: surface
       type(c_ptr), intent(inout), optional :: volume
+    end function
+  end interface
+
+  public :: lap_surface_complex
+  interface
+    ! The solid that an arrangement's surface bounds as a complex, as lap_arrangement_complex: a cell for each part that
+    ! is connected across faces, of which the cells of the arrangement that were chosen are joined.
+    !
+    ! complex: borrowed until the surface is freed; do not free it.
+    !
+    ! Errors: LAP_ERR_BAD_ARGUMENT for the surface of a network; LAP_ERR_TOO_LARGE, LAP_ERR_NULL_POINTER,
+    ! LAP_ERR_CANCELLED, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: as there.
+    integer(c_int32_t) function lap_surface_complex(context, surface, complex) bind(c, name="lap_surface_complex")
+      import :: c_int32_t, c_ptr
+      type(c_ptr), value :: context
+      type(c_ptr), value :: surface
+      type(c_ptr), intent(inout), optional :: complex
     end function
   end interface
 

@@ -1340,6 +1340,14 @@ public:
         return volume;
     }
 
+    /* What the surface of an arrangement's solid bounds, borrowed from this surface. */
+    class complex complex(context &with) const
+    {
+        const lap_complex *borrowed = nullptr;
+        with.run(lap_surface_complex(with.get(), get(), &borrowed));
+        return lapidary::complex(borrowed);
+    }
+
     const lap_surface *get() const { return handle_.get(); }
 
 private:
@@ -1801,6 +1809,26 @@ public:
         const char *volume = "";
         with.run(lap_arrangement_cell_volume_exact(with.get(), get(), cell, &volume));
         return volume;
+    }
+
+    /* The bounded cells, borrowed from this arrangement; of each vertex and face there those of the arrangement. */
+    struct places_t {
+        view<std::int32_t> vertices;
+        rows<std::int32_t> faces;
+    };
+    class complex complex(context &with) const
+    {
+        const lap_complex *borrowed = nullptr;
+        with.run(lap_arrangement_complex(with.get(), get(), &borrowed));
+        return lapidary::complex(borrowed);
+    }
+    /* Only after complex(). */
+    places_t complex_places() const
+    {
+        places_t p;
+        check(lap_arrangement_complex_places(get(), &p.vertices.count, &p.vertices.data, &p.faces.count, &p.faces.offsets,
+                                             &p.faces.items));
+        return p;
     }
 
     /* The surface of a solid: LAP_EXTRACT_*, an expression, a table with a byte for each cell, or a function of each cell and its winding

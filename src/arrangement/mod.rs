@@ -2,7 +2,7 @@
 //! extraction from it (the Mesh Arrangements paper, DESIGN §6).
 //!
 //! Stages in pipeline order: [`soup`] → [`intersect`] (with [`stars`], [`pair`], [`points`]) → [`clusters`] → [`crossings`] → [`triangulate`] →
-//! [`resolve`] → [`patches`] → [`cells`] (with [`nesting`]) → [`winding`] → [`extract`] (→ [`certify`], with [`snap`]).
+//! [`resolve`] → [`patches`] → [`cells`] (with [`nesting`]) → [`winding`] → [`extract`] (→ [`certify`], with [`snap`]) or [`solids`].
 
 pub mod cells;
 pub mod certify;
@@ -18,6 +18,7 @@ pub mod planar;
 pub mod points;
 pub mod resolve;
 pub mod snap;
+pub mod solids;
 pub mod soup;
 pub mod stars;
 pub mod triangulate;

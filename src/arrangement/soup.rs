@@ -132,6 +132,16 @@ impl Soup {
         OperandId::of(self.first_triangle.partition_point(|&first| first <= t.0) - 1)
     }
 
+    /// For each triangle its number where the triangles of all operands, as they were given, count one behind the other.
+    pub fn given(&self) -> Vec<u32> {
+        let (mut first, mut given) = (0, Vec::with_capacity(self.source.len()));
+        for (range, dropped) in self.first_triangle.windows(2).zip(&self.dropped) {
+            given.extend(self.source[range[0] as usize..range[1] as usize].iter().map(|s| first + s));
+            first += range[1] - range[0] + dropped;
+        }
+        given
+    }
+
     /// Sorted adjacency, distinct vertices that are used, triangles with three corners.
     pub fn check(&self) -> std::result::Result<(), String> {
         let m = &self.mesh;

@@ -78,6 +78,9 @@ pub struct Complex {
     pub mesh: Arc<TriMesh>,
     pub planes: Vec<Plane>,
     pub levels: Arc<Levels>,
+    /// Faces on triangles may have a cell before them, or none behind (arrangements): triangles do not bound the solid, and vertices on them may
+    /// be named by others.
+    pub two_sided: bool,
 
     /// Symbolic vertices and their coordinates, correctly rounded.
     pub origins: Vec<Origin>,
@@ -108,7 +111,7 @@ pub struct Complex {
     pub cell_shells: Vec<u32>,
     /// Shell `s` has half-faces `shell_faces.row(s)`, rising.
     pub shell_faces: Csr<HalfFace>,
-    /// The input component that holds each cell's body.
+    /// The input component that holds each cell's body; where faces are two-sided, cells that are joined across faces have one number.
     pub cell_component: Vec<ComponentId>,
 }
 

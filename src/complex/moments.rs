@@ -186,7 +186,7 @@ fn position(c: &Complex, v: VertexId) -> Vector {
                 let (u, v) = seen_along(axis);
                 let turn = |x: [f64; 3]| {
                     let from = |y: [f64; 3], i: usize| Certified::difference(y[i], p[i]);
-                    minor(from(q, u), from(q, v), from(x, u), from(x, v))
+                    minor(from(q, u), from(x, v), from(q, v), from(x, u))
                 };
                 along(&mut rest, &known, [a, b], [turn(a), turn(b)]);
             }
