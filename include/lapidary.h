@@ -141,6 +141,9 @@
 /* A point of a network's domain where functions vanish (materials are equal). ids: the network's vertex, -1, -1 */
 #define LAP_VERTEX_LEVEL 5
 
+/* Where two triangles of an arrangement and the plane of a half-space meet. ids: triangle, triangle, plane */
+#define LAP_VERTEX_TRIANGLES_PLANE 6
+
 /* A face that lies on a triangle of the input mesh. */
 #define LAP_SUPPORT_TRIANGLE 0
 
@@ -2802,6 +2805,33 @@ int32_t lap_arrangement_new(struct lap_context *context,
                             struct lap_arrangement **arrangement);
 
 /*
+ Finds the cells into which operands and half-spaces divide space. Half-space i is operand n_operands + i, in expressions as well.
+
+ Inputs (borrowed for the call): n_half_spaces, planes: 4 × n_half_spaces numbers a, b, c, d, each taken as the exact number that it is: the half-space
+ is where a x + b y + c z + d < 0, so (a, b, c) points out of it. bounds: six numbers, the lowest and the highest corner of a box, or NULL for the box
+ of all vertices of operands with as much room on each side as it is large. A half-space is its part within that box; farther out its winding
+ number is 0. So what is chosen by half-spaces alone ends at the box, and what is inside a mesh that is in the box is not touched by it. Others
+ as for lap_arrangement_new.
+
+ Planes may have any position: through vertices and edges, on triangles, coincident or opposite, three through a line, through the box's corners and on
+ its sides, beside everything. As births a half-space has thirteen triangles: 0 to 11 are parts of the sides of the box, 12 is its plane. Where
+ vertices and triangles count through the operands it counts for eight vertices (the box's corners) and thirteen triangles. In the complex of the
+ arrangement faces on planes alone have those as supports (LAP_SUPPORT_PLANE), with the index of the half-space (of coincident planes the lowest).
+
+ Errors: as lap_arrangement_new; LAP_ERR_BAD_PLANE with all planes that are not finite (LAP_DEFECT_NON_FINITE_PLANE) or have no normal
+ (LAP_DEFECT_ZERO_NORMAL); LAP_ERR_BAD_ARGUMENT for bounds that are no box (finite, the lowest corner lower in every coordinate), or NULL where operands have no
+ vertices. Cost: as there, for each half-space a look at every vertex and triangle, and in each plane about the square of the number of planes.
+ */
+int32_t lap_arrangement_new_half_spaces(struct lap_context *context,
+                                        int64_t n_operands,
+                                        const struct lap_operand *operands,
+                                        int64_t n_half_spaces,
+                                        const double *planes,
+                                        const double *bounds,
+                                        const struct lap_arrangement_options *options,
+                                        struct lap_arrangement **arrangement);
+
+/*
  Frees an arrangement and all that was borrowed from it. NULL is allowed and does nothing. Surfaces made from it stay.
 
  Errors: none.
@@ -2869,7 +2899,8 @@ int32_t lap_arrangement_vertices(const struct lap_arrangement *arrangement,
                                  const double **xyz);
 
 /*
- What each vertex is, symbolically: LAP_VERTEX_MESH, or LAP_VERTEX_TRIANGLES.
+ What each vertex is, symbolically: LAP_VERTEX_MESH, or LAP_VERTEX_TRIANGLES; with half-spaces any but LAP_VERTEX_LEVEL, planes by the index of the
+ half-space (of coincident ones the lowest).
 
  Outputs (each may be NULL; borrowed until the arrangement is freed): count; kinds: count numbers LAP_VERTEX_*; ids: 3 × count, as
  LAP_VERTEX_* says, vertices and triangles counting through all operands (of equal vertices the first), -1 where unused.

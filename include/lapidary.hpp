@@ -1730,6 +1730,20 @@ public:
         handle_.reset(made);
         with.run(status);
     }
+    /* With half-spaces a x + b y + c z + d < 0 (four numbers each) as further operands; bounds: six numbers, or none for a box around all vertices. */
+    arrangement(context &with, const std::vector<lap_operand> &operands, const std::vector<double> &half_spaces,
+                const std::vector<double> &bounds, const lap_arrangement_options &options = arrangement_options())
+    {
+        if (half_spaces.size() % 4 != 0) throw error(LAP_ERR_BAD_ARGUMENT, "half_spaces does not hold four numbers per plane");
+        if (!bounds.empty() && bounds.size() != 6) throw error(LAP_ERR_BAD_ARGUMENT, "bounds does not hold six numbers");
+        lap_arrangement *made = nullptr;
+        const std::int32_t status = lap_arrangement_new_half_spaces(
+            with.get(), static_cast<std::int64_t>(operands.size()), operands.data(),
+            static_cast<std::int64_t>(half_spaces.size() / 4), half_spaces.data(), bounds.empty() ? nullptr : bounds.data(),
+            &options, &made);
+        handle_.reset(made);
+        with.run(status);
+    }
 
     counts_t counts() const
     {

@@ -490,6 +490,72 @@ static void complexes(lap_context *context)
     STATUS(LAP_OK, lap_surface_free(surface));
 }
 
+static void surface_is(lap_context *context, const lap_arrangement *a, const char *expression, const char *volume)
+{
+    lap_surface *surface = NULL;
+    const char *text = NULL;
+    STATUS_IN(context, LAP_OK, lap_arrangement_extract_expression(context, a, expression, &surface));
+    STATUS_IN(context, LAP_OK, lap_surface_volume_exact(context, surface, &text));
+    CHECK(text != NULL && strcmp(text, volume) == 0);
+    CHECK(is_closed(surface));
+    STATUS(LAP_OK, lap_surface_free(surface));
+}
+
+/* A cube of edge 2 and half-spaces: x < 1/3, which no double is; a corner cut off; one whose plane is on a side. */
+static void half_spaces(lap_context *context)
+{
+    const double planes[12] = {3, 0, 0, -1, 0.5, 0.5, 0.5, -0.5, 0, 0, 1, -2};
+    double bounds[6] = {-1, -1, -1, 5, 5, 5}, bad[8] = {1, 0, 0, 0, 0, 0, 0, 1};
+    box b;
+    const lap_operand cube = boxed(&b, 0, 0, 0, 0);
+    lap_arrangement *a = NULL;
+    const lap_complex *complex = NULL;
+    const int64_t *first = NULL;
+    const int32_t *kinds = NULL, *ids = NULL, *operands = NULL, *triangles = NULL;
+    int64_t count = 0, i, on_planes = 0;
+    STATUS_IN(context, LAP_OK, lap_arrangement_new_half_spaces(context, 1, &cube, 3, planes, NULL, NULL, &a));
+    surface_is(context, a, "0 & 1", "4/3");
+    surface_is(context, a, "0 - 1", "20/3");
+    surface_is(context, a, "0 & 2", "1/6");
+    surface_is(context, a, "0 & 3", "8");
+    surface_is(context, a, "0 - 3", "0");
+    surface_is(context, a, "0 & 1 & 2", "19/162");
+    STATUS(LAP_OK, lap_arrangement_operands(a, &count, NULL, &first, NULL));
+    CHECK(count == 4 && first[1] == 12 && first[2] == 25 && first[4] == 51);
+    STATUS(LAP_OK, lap_arrangement_face_births(a, &count, NULL, &operands, &triangles, NULL));
+    STATUS(LAP_OK, lap_arrangement_vertex_origins(a, &count, &kinds, &ids));
+    for (i = 0; i < count; ++i) CHECK(kinds[i] >= LAP_VERTEX_MESH && kinds[i] <= LAP_VERTEX_TRIANGLES_PLANE);
+    STATUS_IN(context, LAP_OK, lap_arrangement_complex(context, a, &complex));
+    STATUS_IN(context, LAP_OK, lap_complex_check(context, complex));
+    STATUS(LAP_OK, lap_complex_face_supports(complex, &count, &kinds, &ids, NULL, NULL));
+    for (i = 0; i < count; ++i) {
+        on_planes += kinds[i] == LAP_SUPPORT_PLANE;
+        CHECK(kinds[i] == LAP_SUPPORT_PLANE ? ids[i] >= 0 && ids[i] < 3 : ids[i] >= 0 && ids[i] < 51);
+    }
+    CHECK(on_planes > 3);
+    STATUS(LAP_OK, lap_arrangement_free(a));
+
+    /* Within bounds alone. */
+    STATUS_IN(context, LAP_OK, lap_arrangement_new_half_spaces(context, 0, NULL, 3, planes, bounds, NULL, &a));
+    surface_is(context, a, "0", "48");
+    surface_is(context, a, "2", "108");
+    STATUS(LAP_OK, lap_arrangement_free(a));
+
+    a = (lap_arrangement *)&a;
+    STATUS(LAP_ERR_BAD_PLANE, lap_arrangement_new_half_spaces(context, 1, &cube, 2, bad, NULL, NULL, &a));
+    CHECK(a == NULL && has_message(context));
+    STATUS(LAP_OK, lap_context_last_defects(context, &count, &kinds, NULL));
+    CHECK(count == 1 && kinds[0] == LAP_DEFECT_ZERO_NORMAL);
+    STATUS(LAP_ERR_BAD_ARGUMENT, lap_arrangement_new_half_spaces(context, 0, NULL, 3, planes, NULL, NULL, &a));
+    bounds[3] = -1;
+    STATUS(LAP_ERR_BAD_ARGUMENT, lap_arrangement_new_half_spaces(context, 1, &cube, 3, planes, bounds, NULL, &a));
+    STATUS(LAP_ERR_BAD_ARGUMENT, lap_arrangement_new_half_spaces(context, 1, &cube, -1, planes, NULL, NULL, &a));
+    STATUS(LAP_ERR_NULL_POINTER, lap_arrangement_new_half_spaces(context, 1, &cube, 1, NULL, NULL, NULL, &a));
+    STATUS(LAP_ERR_NULL_POINTER, lap_arrangement_new_half_spaces(context, 1, &cube, 3, planes, NULL, NULL, NULL));
+    STATUS(LAP_ERR_NULL_POINTER, lap_arrangement_new_half_spaces(NULL, 1, &cube, 3, planes, NULL, NULL, &a));
+    CHECK(has_message(context));
+}
+
 static void null_pointers(lap_context *context)
 {
     const double xyz[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
@@ -549,6 +615,7 @@ void test_arrangement(void)
     touching(context);
     expressions(context);
     complexes(context);
+    half_spaces(context);
     null_pointers(context);
     STATUS(LAP_OK, lap_context_free(context));
     test_arrangement_callbacks();

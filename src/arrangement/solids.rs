@@ -16,15 +16,18 @@
 //!
 //! Cost: linear in the faces kept, sorts of edges, a radial sort around each edge with more than two faces.
 
+use super::planar::quick_side;
 use super::{Arrangement, Birth, Resolved};
 use crate::base::{
-    CellId, ComponentId, Csr, Error, FaceId, PlaneId, Result, Run, ShellId, Status, TriangleId, UnionFind, VertexId,
+    CellId, ComponentId, Csr, Error, FaceId, LoopId, PlaneId, Result, Run, ShellId, Status, TriangleId, UnionFind,
+    VertexId,
 };
 use crate::complex::loops::find_edges;
 use crate::complex::shells::{Joined, Shells, fill_cells, find_shells, outer_shells};
 use crate::complex::{Complex, HalfFace, SupportId};
-use crate::exact;
+use crate::exact::{self, Support};
 use crate::mesh::edges::{EdgeTable, edge_table};
+use rayon::prelude::*;
 use std::cmp::Ordering;
 
 /// Cells of an arrangement as a complex, and what there its elements are.
@@ -84,14 +87,15 @@ pub fn solids(a: &Arrangement, region: &[CellId], run: &mut Run) -> Result<Solid
     let parts = Parts::new(r, &kept);
     let faces = parts.rows();
     run.tick("faces", 0.2)?;
-    let mut c = Complex { mesh: r.soup.mesh.clone(), two_sided: true, ..Complex::default() };
+    let planes = r.soup.planes().to_vec();
+    let mut c = Complex { mesh: r.soup.mesh.clone(), planes, two_sided: true, ..Complex::default() };
     let vertices = fill_faces(&mut c, r, &parts, &faces);
-    c.face_support = (0..faces.len()).map(|f| SupportId::Triangle(parts.support(faces.row(f)[0]))).collect();
-    c.face_plane = vec![PlaneId::NONE; faces.len()];
+    c.face_support = (0..faces.len()).map(|f| parts.support_id(faces.row(f)[0])).collect();
     c.face_tag = vec![0; faces.len()];
     c.coords = vertices.iter().map(|v| r.coords(*v)).collect();
     c.origins = vertices.iter().map(|v| r.origin(*v)).collect();
-    c.vertex_planes = Csr { offsets: vec![0; vertices.len() + 1], items: Vec::new() };
+    c.vertex_planes = planes_through(r, &vertices);
+    c.face_plane = (0..faces.len()).map(|f| plane_of(&c, FaceId::of(f))).collect();
     (c.edges, c.corner_edges) = find_edges(&c.loop_offsets, &c.corner_vertices);
     if 2 * faces.len() > i32::MAX as usize || c.corner_vertices.len() > i32::MAX as usize {
         return Err(Error::new(Status::TooLarge, "the cells have more elements than 32-bit indices can number"));
@@ -134,6 +138,12 @@ impl<'a> Parts<'a> {
         self.r.support[self.kept[i as usize].at()]
     }
 
+    /// Of the lowest of coincident planes, or a triangle.
+    fn support_id(&self, i: u32) -> SupportId {
+        let (soup, t) = (&self.r.soup, self.support(i));
+        soup.sheet(t).map_or(SupportId::Triangle(t), |p| SupportId::Plane(soup.half_spaces.stands[p.at()]))
+    }
+
     /// The part across a side, and its side, where both are one face.
     fn across(&self, i: u32, k: usize) -> Option<(u32, usize)> {
         let [a, b] = self.table.edge_uses.row(self.table.triangle_edges[i as usize][k]) else { return None };
@@ -165,6 +175,36 @@ impl<'a> Parts<'a> {
         let (of, faces) = sets.labels();
         Csr::from_pairs(faces, of.iter().enumerate().map(|(i, &f)| (f as usize, i as u32)))
     }
+}
+
+/// The planes of half-spaces through each vertex, of coincident ones the lowest.
+fn planes_through(r: &Resolved, vertices: &[VertexId]) -> Csr<PlaneId> {
+    let (planes, stands) = (r.soup.planes(), &r.soup.half_spaces.stands);
+    if planes.is_empty() {
+        return Csr { offsets: vec![0; vertices.len() + 1], items: Vec::new() };
+    }
+    let on = |v: VertexId, p: &PlaneId| {
+        let plane = &planes[p.at()];
+        stands[p.at()] == *p
+            && quick_side(plane, &r.coords(v)).is_none()
+            && exact::support_side(&Support::Plane(*plane), &r.point(v)).is_zero()
+    };
+    let all: Vec<Vec<PlaneId>> = vertices
+        .par_iter()
+        .with_min_len(1 << 10)
+        .map(|&v| (0..planes.len()).map(PlaneId::of).filter(|p| on(v, p)).collect())
+        .collect();
+    let mut rows = Csr::with_capacity(vertices.len(), 0);
+    all.iter().for_each(|row| rows.push_row(row));
+    rows
+}
+
+/// The plane that a whole face lies on: the one through all vertices of its outer loop, which are on no line.
+fn plane_of(c: &Complex, f: FaceId) -> PlaneId {
+    let corners = c.corners_of(LoopId(c.face_loops[f.at()]));
+    let [first, rest @ ..] = &c.corner_vertices[corners] else { return PlaneId::NONE };
+    let whole = |p: &&PlaneId| rest.iter().all(|v| c.vertex_planes.row(*v).contains(p));
+    c.vertex_planes.row(*first).iter().find(whole).copied().unwrap_or(PlaneId::NONE)
 }
 
 /// All births of a face that has several.

@@ -50,7 +50,7 @@ fn births(a: &Arrangement) -> Births {
     for f in (0..a.face_count()).map(FaceId::of) {
         for b in resolved.births_of(f) {
             all.operands.push(soup.operand(b.triangle));
-            all.triangles.push(soup.source[b.triangle.at()]);
+            all.triangles.push(soup.place(b.triangle));
             all.reversed.push(!b.same);
         }
         all.offsets.push(all.operands.len() as u32);
@@ -91,7 +91,8 @@ pub unsafe extern "C" fn lap_arrangement_vertices(
     })
 }
 
-/// What each vertex is, symbolically: LAP_VERTEX_MESH, or LAP_VERTEX_TRIANGLES.
+/// What each vertex is, symbolically: LAP_VERTEX_MESH, or LAP_VERTEX_TRIANGLES; with half-spaces any but LAP_VERTEX_LEVEL, planes by the index of the
+/// half-space (of coincident ones the lowest).
 ///
 /// Outputs (each may be NULL; borrowed until the arrangement is freed): count; kinds: count numbers LAP_VERTEX_*; ids: 3 × count, as
 /// LAP_VERTEX_* says, vertices and triangles counting through all operands (of equal vertices the first), -1 where unused.

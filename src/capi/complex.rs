@@ -21,6 +21,8 @@ pub const LAP_VERTEX_PLANES: i32 = 3;
 pub const LAP_VERTEX_TRIANGLES: i32 = 4;
 /// A point of a network's domain where functions vanish (materials are equal). ids: the network's vertex, -1, -1
 pub const LAP_VERTEX_LEVEL: i32 = 5;
+/// Where two triangles of an arrangement and the plane of a half-space meet. ids: triangle, triangle, plane
+pub const LAP_VERTEX_TRIANGLES_PLANE: i32 = 6;
 
 /// A face that lies on a triangle of the input mesh.
 pub const LAP_SUPPORT_TRIANGLE: i32 = 0;
@@ -199,6 +201,7 @@ pub fn number_origin(
         Origin::EdgeTriangle(e, t) => (LAP_VERTEX_TRIANGLES, [first(e), triangle(t), -1]),
         Origin::Edges(e, f) => (LAP_VERTEX_TRIANGLES, [first(e), first(f), -1]),
         Origin::Triangles(t, u, v) => (LAP_VERTEX_TRIANGLES, [t, u, v].map(triangle)),
+        Origin::TrianglesPlane(t, u, p) => (LAP_VERTEX_TRIANGLES_PLANE, [triangle(t), triangle(u), p.0 as i32]),
         Origin::Level(i) => (LAP_VERTEX_LEVEL, [level(i), -1, -1]),
     }
 }

@@ -106,6 +106,7 @@ fn vertices(c: &Complex) -> Check {
             Origin::EdgeTriangle(e, t) => e.at() < m.edges.len() && t.at() < m.triangles.len(),
             Origin::Edges(e, f) => e < f && f.at() < m.edges.len(),
             Origin::Triangles(t, u, v) => t < u && u < v && v.at() < m.triangles.len(),
+            Origin::TrianglesPlane(t, u, p) => t < u && u.at() < m.triangles.len() && on(p),
             Origin::Level(i) => c.levels.points.get(i as usize).is_some_and(|zero| zero.dim <= 3),
         };
         ensure(good, || format!("vertex {v}: its origin {:?} does not fit", c.origins[v]))?;
@@ -246,6 +247,7 @@ fn on_triangle(c: &Complex, o: Origin, t: TriangleId) -> bool {
         Origin::EdgeTriangle(e, s) => s == t || m.triangle_edges[t.at()].contains(&e),
         Origin::Edges(e, f) => m.triangle_edges[t.at()].iter().any(|&k| k == e || k == f),
         Origin::Triangles(a, b, d) => a == t || b == t || d == t,
+        Origin::TrianglesPlane(a, b, _) => a == t || b == t,
         Origin::Level(i) => {
             let (zero, corners) = (&c.levels.points[i as usize], m.corners(t));
             zero.corners[..=zero.dim as usize].iter().all(|x| corners.contains(x))

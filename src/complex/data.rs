@@ -22,6 +22,8 @@ pub enum Origin {
     Edges(EdgeId, EdgeId),
     /// Where the planes of three triangles meet.
     Triangles(TriangleId, TriangleId, TriangleId),
+    /// Where the planes of two triangles and a plane meet.
+    TrianglesPlane(TriangleId, TriangleId, PlaneId),
     /// Where linear functions vanish: a position in [`Levels::points`].
     Level(u32),
 }
@@ -175,6 +177,10 @@ pub fn origin_point(mesh: &TriMesh, planes: &[Plane], origin: Origin) -> Point {
         }
         Origin::Level(_) => unreachable!("levels are those of a complex"),
         Origin::Triangles(t, u, v) => Point::Supports([t, u, v].map(|t| exact::Support::Triangle(mesh.corners(t)))),
+        Origin::TrianglesPlane(t, u, p) => {
+            let [t, u] = [t, u].map(|t| exact::Support::Triangle(mesh.corners(t)));
+            Point::Supports([t, u, exact::Support::Plane(planes[p.at()])])
+        }
     }
 }
 
