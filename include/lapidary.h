@@ -264,7 +264,7 @@
  there, its births, and runs like the first of them. Patch: faces joined across edges with two faces. Cell: a
  connected part of space without faces that divide; number 0 is the unbounded one. Where births cancel in every operand a face divides nothing: it has
  no patch and no cells. Triangles and vertices of all operands, where they are one number, count through the operands, one
- behind the other (lap_arrangement_operands).
+ behind the other (lap_arrangement_operands). Half-spaces may be operands too (lap_arrangement_new_half_spaces).
 
  Immutable: a const handle may be used from many threads at once; what is computed on demand is computed once.
  */

@@ -324,3 +324,36 @@ fn a_mesh_that_intersects_itself() {
     assert_eq!(sum, expected);
     println!("bull: {} cells, {} without planes", a.cell_count(), alone.cell_count());
 }
+
+#[test]
+fn threads_do_not_matter() {
+    let mut random = Random(9);
+    let (vertices, triangles) = common::icosphere::icosphere(3);
+    let soup = Soup { vertices, triangles };
+    let mesh = build_soup(&soup, Default::default()).unwrap();
+    let mut planes = arbitrary(&mesh, 12, &mut random);
+    planes.extend(grid(&mesh, 3));
+    planes.extend(incident(&mesh, 4, &mut random));
+    let meshes = [soup];
+    let made = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            let a = arranged(&meshes, &planes, None);
+            let s = solids(&a, &every_cell(&a), &mut Run::quiet()).unwrap();
+            (a, s)
+        })
+    };
+    let (one, s) = made(1);
+    for threads in [2, 5] {
+        let (other, t) = made(threads);
+        assert_eq!(one.resolved.faces, other.resolved.faces);
+        assert_eq!(one.resolved.support, other.resolved.support);
+        assert_eq!(one.resolved.births, other.resolved.births);
+        assert_eq!(one.resolved.points.origins, other.resolved.points.origins);
+        assert_eq!(one.cells.of, other.cells.of);
+        assert_eq!(one.winding.rows, other.winding.rows);
+        assert_eq!(s.faces, t.faces);
+        assert_eq!(s.complex.corner_vertices, t.complex.corner_vertices);
+        assert_eq!(s.complex.shell_faces, t.complex.shell_faces);
+    }
+}

@@ -22,8 +22,8 @@ use rayon::prelude::*;
 /// caller wants to stop.
 const PART: usize = 1 << 9;
 const AT_ONCE: usize = 1 << 9;
-/// Planes between two such looks.
-const SHEETS: usize = 8;
+/// Looks of planes at triangles between two such looks.
+const SHEETS: usize = 1 << 22;
 
 /// What pairs told.
 #[derive(Default)]
@@ -109,7 +109,8 @@ fn meet_sheets(soup: &Soup, found: &mut Found, run: &mut Run) -> Result<()> {
         }
         part
     };
-    for block in (0..stands.len()).collect::<Vec<_>>().chunks(SHEETS) {
+    let at_once = (SHEETS / soup.mesh.triangles.len().max(1)).clamp(1, 64);
+    for block in (0..stands.len()).collect::<Vec<_>>().chunks(at_once) {
         let parts: Vec<Found> = block.par_iter().with_max_len(1).map(|&p| each(p)).collect();
         parts.into_iter().for_each(|part| found.add(part));
         run.tick("intersect", 0.3)?;
