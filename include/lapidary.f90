@@ -1268,8 +1268,9 @@ module lapidary
     !
     ! cell: from 0; plane: index in the caller's array (any of coincident planes).
     !
-    ! Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BAD_ARGUMENT for a cell or plane that is not there. Threads: any. Cost: one
-    ! exact sign, and a walk over those vertices of the cell that lie on the plane.
+    ! Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BAD_ARGUMENT for a cell or plane that is not there, or for the complex of an
+    ! arrangement (planes cut only what is within the bounds of half-spaces, and winding numbers tell where cells are).
+    ! Threads: any. Cost: one exact sign, and a walk over those vertices of the cell that lie on the plane.
     integer(c_int32_t) function lap_complex_cell_side(complex, cell, plane, side) bind(c, name="lap_complex_cell_side")
       import :: c_int32_t, c_ptr
       type(c_ptr), value :: complex

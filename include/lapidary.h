@@ -1128,8 +1128,9 @@ int32_t lap_complex_cell_components(const struct lap_complex *complex,
 
  cell: from 0; plane: index in the caller's array (any of coincident planes).
 
- Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BAD_ARGUMENT for a cell or plane that is not there. Threads: any. Cost: one
- exact sign, and a walk over those vertices of the cell that lie on the plane.
+ Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BAD_ARGUMENT for a cell or plane that is not there, or for the complex of an arrangement (planes cut only what is within
+ the bounds of half-spaces, and winding numbers tell where cells are). Threads: any. Cost: one exact sign, and a walk over those vertices of
+ the cell that lie on the plane.
  */
 int32_t lap_complex_cell_side(const struct lap_complex *complex,
                               int32_t cell,

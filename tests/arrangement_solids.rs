@@ -7,10 +7,11 @@ use lapidary::base::{CellId, Run, Status};
 use lapidary::complex::exact_values::cell_volume;
 use lapidary::complex::keys::{names, vertex_keys};
 use lapidary::complex::{
-    CertifyOptions, FaceStyle, GlobalIds, SupportId, certify, check, check_volumes, faces_as, moments,
+    CertifyOptions, FaceStyle, GlobalIds, Key, SupportId, certify, check, check_volumes, euler, faces_as, moments,
 };
 use lapidary::exact::round_rational;
 use rug::Rational;
+use std::collections::BTreeMap;
 
 #[path = "common/mod.rs"]
 mod common;
@@ -84,6 +85,7 @@ fn a_cube() {
     let s = assert_whole(&a, "cube");
     let c = &s.complex;
     assert_eq!((c.vertex_count(), c.edge_count(), c.face_count(), c.cell_count()), (8, 18, 12, 1));
+    assert_eq!(euler(c), Ok(1));
     let m = moments(c);
     assert_eq!((m.cell_volume[0], m.cell_centroid[0]), (1.0, [0.5; 3]));
     assert_eq!(m.face_area_vector[0], [0.0, 0.0, -0.5]);
@@ -130,7 +132,7 @@ fn holes_slits_and_isolated_vertices() {
     // Within, not touching: the outer cell has a void.
     let a = arranged(&[big.clone(), cuboid([1.0; 3], [2.0; 3])]);
     let s = assert_whole(&a, "void");
-    assert_eq!((s.complex.cell_count(), s.complex.shell_faces.len()), (2, 3));
+    assert_eq!((s.complex.cell_count(), s.complex.shell_faces.len(), euler(&s.complex)), (2, 3, Ok(1)));
     assert!(s.complex.cell_shells.windows(2).any(|w| w[1] - w[0] == 2));
     // A tip that touches a side from outside, and one from inside.
     for (z, what) in [(1.0, "outside"), (-1.0, "inside")] {
@@ -196,6 +198,29 @@ fn faces_do_not_depend_on_their_triangulation() {
     let mut keys = vertex_keys(&a, &names(&a.mesh, &a.planes, &ids).unwrap());
     keys.sort_unstable();
     assert!(keys.windows(2).all(|w| w[0] != w[1]));
+}
+
+#[test]
+fn vertices_that_arrangements_share_have_one_key() {
+    // The same two cubes with a third one that touches one of them elsewhere, and global ids that do not rise with positions.
+    let [x, y, z] = [unit(0.0, 0.0, 0.0), unit(0.5, 0.25, 0.125), cuboid([-1.0, -1.0, -1.0], [0.25, 0.25, 0.25])];
+    let keys = |a: &Arrangement, ids: &dyn Fn(usize) -> i64| {
+        let c = made(a).complex;
+        let ids: Vec<i64> = (0..c.mesh.triangles.len()).map(ids).collect();
+        let ids = GlobalIds { triangles: Some(&ids), ..GlobalIds::default() };
+        let keys = vertex_keys(&c, &names(&c.mesh, &c.planes, &ids).unwrap());
+        c.coords.iter().map(|x| x.map(f64::to_bits)).zip(keys).collect::<BTreeMap<[u64; 3], Key>>()
+    };
+    let number = |i: usize| [200, 100, 300][i / 12] + (i % 12) as i64;
+    let two = keys(&arranged(&[x.clone(), y.clone()]), &number);
+    let three = keys(&arranged(&[z, x, y]), &|i| number((i + 24) % 36));
+    let mut all: Vec<Key> = three.values().copied().collect();
+    all.sort_unstable();
+    assert!(all.windows(2).all(|w| w[0] != w[1]));
+    let shared = two.iter().filter(|(x, key)| three.get(*x).is_some_and(|k| k == *key)).count();
+    // All but what the third cube swallows or names anew.
+    let expected = two.keys().filter(|x| three.contains_key(*x)).count();
+    assert!(shared == expected && shared > 15, "{shared} of {expected}, {} in all", two.len());
 }
 
 #[test]

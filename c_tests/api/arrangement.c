@@ -441,6 +441,7 @@ static void complexes(lap_context *context)
     const int64_t *keys = NULL;
     const char *text = NULL;
     int64_t n_cells = 0, count = 0, n_vertices = 0, n_faces = 0, i, k;
+    int32_t side = 0;
     operands[0] = boxed(&one, 0, 0, 0, 0);
     operands[1] = boxed(&two, 1, 0, 0, 1);
     a = arranged(context, 2, operands);
@@ -473,6 +474,7 @@ static void complexes(lap_context *context)
     STATUS(LAP_OK, lap_complex_vertex_keys(complex, &count, &keys));
     CHECK(count == n_vertices && keys != NULL);
     STATUS(LAP_ERR_BAD_ARGUMENT, lap_complex_face_keys(complex, &count, &keys));
+    STATUS(LAP_ERR_BAD_ARGUMENT, lap_complex_cell_side(complex, 0, 0, &side));
     STATUS(LAP_ERR_NULL_POINTER, lap_arrangement_complex(context, a, NULL));
     STATUS(LAP_ERR_NULL_POINTER, lap_arrangement_complex(context, NULL, &complex));
     CHECK(complex == NULL);

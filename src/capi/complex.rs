@@ -399,8 +399,9 @@ pub unsafe extern "C" fn lap_complex_cell_components(
 ///
 /// cell: from 0; plane: index in the caller's array (any of coincident planes).
 ///
-/// Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BAD_ARGUMENT for a cell or plane that is not there. Threads: any. Cost: one
-/// exact sign, and a walk over those vertices of the cell that lie on the plane.
+/// Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BAD_ARGUMENT for a cell or plane that is not there, or for the complex of an arrangement (planes cut only what is within
+/// the bounds of half-spaces, and winding numbers tell where cells are). Threads: any. Cost: one exact sign, and a walk over those vertices of
+/// the cell that lie on the plane.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn lap_complex_cell_side(
     complex: *const lap_complex,
@@ -412,6 +413,9 @@ pub unsafe extern "C" fn lap_complex_cell_side(
         let c = &unsafe { handle(complex) }?.data;
         if side.is_null() {
             return Err(Status::NullPointer);
+        }
+        if c.two_sided {
+            return Err(Status::BadArgument);
         }
         let cell = CellId::of(index(cell, c.cell_count())?);
         let plane = PlaneId::of(index(plane, c.planes.len())?);
