@@ -7,9 +7,13 @@
 
 #include <lapidary.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
+#include <iomanip>
 #include <iostream>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -32,8 +36,10 @@ operations (a point is inside a mesh where that winds around it, in the positive
   xor                   inside an odd number of them
   resolve               where the winding numbers of all have a positive sum: inside, were they one mesh
   at-least:K            inside at least K of them
-  expr:"EXPRESSION"     such as "(0 | 1) & !2": numbers are meshes, from 0; ! not, & and, - and not, ^ one but not both, | or
+  expr:"EXPRESSION"     such as "(0 | 1) & !2": numbers are operands, from 0; ! not, & and, - and not, ^ one but not both, | or
 options
+  --plane NX,NY,NZ,D    the half-space n.x + D < 0 as a further operand; any number of them, numbered behind the meshes
+  --bounds X,Y,Z,X,Y,Z  the box in which half-spaces are (default: one around all meshes, with room)
   --certify             round so that the output does not intersect itself
   --threads N           worker threads (default 1); the result does not depend on it
   --repeat N            run N times, report the fastest (default 1)
@@ -46,11 +52,25 @@ exit status: 0 done, 1 the library refused the input, 2 wrong usage, 3 a file ca
 
 struct Options : Common {
     std::vector<std::string> meshes;
+    std::vector<double> planes, bounds; // four numbers each; six or none
     std::string op, out, exploded, expression;
     std::int32_t operation = LAP_EXTRACT_UNION, at_least = 1;
     bool certify = false;
     double explode = 0.6;
 };
+
+// So many numbers between commas.
+std::vector<double> to_numbers(const std::string &option, const std::string &text, std::size_t count)
+{
+    std::vector<double> numbers;
+    for (std::size_t start = 0; start <= text.size();) {
+        const std::size_t end = std::min(text.find(',', start), text.size());
+        numbers.push_back(to_number(option, text.substr(start, end - start)));
+        start = end + 1;
+    }
+    if (numbers.size() != count) throw UsageError(option + ": '" + text + "' is not " + std::to_string(count) + " numbers");
+    return numbers;
+}
 
 void read_operation(Options &options)
 {
@@ -86,9 +106,14 @@ Options parse(const std::vector<std::string> &given)
     arguments.text("--exploded", options.exploded);
     arguments.factor("--explode", options.explode);
     arguments.flag("--certify", options.certify);
+    arguments.on("--plane", [&] {
+        const std::vector<double> plane = to_numbers("--plane", arguments.next(), 4);
+        options.planes.insert(options.planes.end(), plane.begin(), plane.end());
+    });
+    arguments.on("--bounds", [&] { options.bounds = to_numbers("--bounds", arguments.next(), 6); });
     arguments.read(given, [&](const std::string &mesh) { options.meshes.push_back(mesh); });
     if (options.help) return options;
-    if (options.meshes.empty()) throw UsageError("no mesh given");
+    if (options.meshes.empty() && (options.planes.empty() || options.bounds.empty())) throw UsageError("no mesh given");
     if (options.op.empty()) throw UsageError("--op is needed");
     read_operation(options);
     return options;
@@ -108,7 +133,9 @@ Run run(lap_context *context, const std::vector<lap_operand> &operands, const Op
     lap_surface *surface = nullptr;
     if (progress) start_progress(*progress, "boolean");
     const auto start = std::chrono::steady_clock::now();
-    must(context, lap_arrangement_new(context, static_cast<std::int64_t>(operands.size()), operands.data(), nullptr, &arrangement));
+    must(context, lap_arrangement_new_half_spaces(context, static_cast<std::int64_t>(operands.size()), operands.data(),
+                                                  static_cast<std::int64_t>(options.planes.size() / 4), options.planes.data(),
+                                                  options.bounds.empty() ? nullptr : options.bounds.data(), nullptr, &arrangement));
     result.arrangement.reset(arrangement);
     const auto arranged = std::chrono::steady_clock::now();
     if (options.expression.empty())
@@ -148,6 +175,12 @@ int mesh_boolean(const Options &options)
         const Mesh &mesh = meshes[i];
         operands.push_back({mesh.vertex_count(), mesh.coordinates.data(), mesh.triangle_count(), mesh.triangles.data()});
         report.input.push_back({options.meshes[i], mesh.vertex_count(), mesh.triangle_count(), 0});
+    }
+    for (std::size_t i = 0; i < options.planes.size(); i += 4) {
+        std::ostringstream name;
+        name << std::setprecision(17) << "plane " << options.planes[i] << ',' << options.planes[i + 1] << ',' << options.planes[i + 2] << ','
+             << options.planes[i + 3];
+        report.input.push_back({name.str(), 0, 0, 0});
     }
 
     // The first run counts decisions and shows progress; the timed runs that follow do neither.

@@ -141,6 +141,9 @@
 /* A point of a network's domain where functions vanish (materials are equal). ids: the network's vertex, -1, -1 */
 #define LAP_VERTEX_LEVEL 5
 
+/* Where two triangles of an arrangement and the plane of a half-space meet. ids: triangle, triangle, plane */
+#define LAP_VERTEX_TRIANGLES_PLANE 6
+
 /* A face that lies on a triangle of the input mesh. */
 #define LAP_SUPPORT_TRIANGLE 0
 
@@ -261,7 +264,7 @@
  there, its births, and runs like the first of them. Patch: faces joined across edges with two faces. Cell: a
  connected part of space without faces that divide; number 0 is the unbounded one. Where births cancel in every operand a face divides nothing: it has
  no patch and no cells. Triangles and vertices of all operands, where they are one number, count through the operands, one
- behind the other (lap_arrangement_operands).
+ behind the other (lap_arrangement_operands). Half-spaces may be operands too (lap_arrangement_new_half_spaces).
 
  Immutable: a const handle may be used from many threads at once; what is computed on demand is computed once.
  */
@@ -1083,7 +1086,8 @@ int32_t lap_complex_face_supports(const struct lap_complex *complex,
  The cells on the two sides of each face.
 
  Outputs (each may be NULL; borrowed as the complex): count: the number of faces; cells: 2 × count, the owner (behind
- the face, on the side that its normal points away from), and the neighbour (before it), -1 outside the solid.
+ the face, on the side that its normal points away from), and the neighbour (before it), -1 outside the solid (in the complex of an
+ arrangement that may be either).
 
  Errors: LAP_ERR_NULL_POINTER if complex is NULL. Threads: any. Cost: none.
  */
@@ -1109,7 +1113,7 @@ int32_t lap_complex_cells(const struct lap_complex *complex,
 
 /*
  The component of the input mesh (0 up to lap_mesh_counts' components) that each cell belongs to: that of the surface
- which encloses it.
+ which encloses it. In the complex of an arrangement cells that are joined across faces have one number, from 0.
 
  Outputs (each may be NULL; borrowed as the complex): count: the number of cells; components: count.
 
@@ -1124,8 +1128,9 @@ int32_t lap_complex_cell_components(const struct lap_complex *complex,
 
  cell: from 0; plane: index in the caller's array (any of coincident planes).
 
- Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BAD_ARGUMENT for a cell or plane that is not there. Threads: any. Cost: one
- exact sign, and a walk over those vertices of the cell that lie on the plane.
+ Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BAD_ARGUMENT for a cell or plane that is not there, or for the complex of an arrangement (planes cut only what is within
+ the bounds of half-spaces, and winding numbers tell where cells are). Threads: any. Cost: one exact sign, and a walk over those vertices of
+ the cell that lie on the plane.
  */
 int32_t lap_complex_cell_side(const struct lap_complex *complex,
                               int32_t cell,
@@ -1290,7 +1295,8 @@ int32_t lap_cut_set_plane_ids(struct lap_context *context,
  The keys of the vertices: 128 bits each, made from global ids of triangles and planes alone (lap_mesh_set_triangle_ids,
  lap_cut_set_plane_ids). No two vertices have the same key, and no vertex has that of a face. Two complexes cut from parts of
  the same mesh by some of the same planes give a vertex that they share the same key, if both know all triangles that
- contain it: a block that is given every triangle which meets its closed box, and the planes that bound it, does.
+ contain it: a block that is given every triangle which meets its closed box, and the planes that bound it, does. (Arrangements promise less: a
+ point where more triangles meet than are needed to name it goes by those among which it was found first.)
 
  Outputs (each may be NULL; borrowed as the complex): count; keys: 2 × count, the first number of a pair never negative.
  What the numbers are: the 7 high bits of the first are the kind of the point, then follow three numbers of 40 bits, as for
@@ -1311,7 +1317,7 @@ int32_t lap_complex_vertex_keys(const struct lap_complex *complex,
 
  Outputs (each may be NULL; borrowed as the complex): count; keys: 2 × count, the first number of a pair never negative.
 
- Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_BAD_ARGUMENT for that of a network, LAP_ERR_INCONSISTENT for input that intersects itself,
+ Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_BAD_ARGUMENT for that of a network or an arrangement, LAP_ERR_INCONSISTENT for input that intersects itself,
  LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: linear at the first call, then none.
  */
 int32_t lap_complex_face_keys(const struct lap_complex *complex,
@@ -2800,6 +2806,33 @@ int32_t lap_arrangement_new(struct lap_context *context,
                             struct lap_arrangement **arrangement);
 
 /*
+ Finds the cells into which operands and half-spaces divide space. Half-space i is operand n_operands + i, in expressions as well.
+
+ Inputs (borrowed for the call): n_half_spaces, planes: 4 × n_half_spaces numbers a, b, c, d, each taken as the exact number that it is: the half-space
+ is where a x + b y + c z + d < 0, so (a, b, c) points out of it. bounds: six numbers, the lowest and the highest corner of a box, or NULL for the box
+ of all vertices of operands with as much room on each side as it is large. A half-space is its part within that box; farther out its winding
+ number is 0. So what is chosen by half-spaces alone ends at the box, and what is inside a mesh that is in the box is not touched by it. Others
+ as for lap_arrangement_new.
+
+ Planes may have any position: through vertices and edges, on triangles, coincident or opposite, three through a line, through the box's corners and on
+ its sides, beside everything. As births a half-space has thirteen triangles: 0 to 11 are parts of the sides of the box, 12 is its plane. Where
+ vertices and triangles count through the operands it counts for eight vertices (the box's corners) and thirteen triangles. In the complex of the
+ arrangement faces on planes alone have those as supports (LAP_SUPPORT_PLANE), with the index of the half-space (of coincident planes the lowest).
+
+ Errors: as lap_arrangement_new; LAP_ERR_BAD_PLANE with all planes that are not finite (LAP_DEFECT_NON_FINITE_PLANE) or have no normal
+ (LAP_DEFECT_ZERO_NORMAL); LAP_ERR_BAD_ARGUMENT for bounds that are no box (finite, the lowest corner lower in every coordinate), or NULL where operands have no
+ vertices. Cost: as there, for each half-space a look at every vertex and triangle, and in each plane about the square of the number of planes.
+ */
+int32_t lap_arrangement_new_half_spaces(struct lap_context *context,
+                                        int64_t n_operands,
+                                        const struct lap_operand *operands,
+                                        int64_t n_half_spaces,
+                                        const double *planes,
+                                        const double *bounds,
+                                        const struct lap_arrangement_options *options,
+                                        struct lap_arrangement **arrangement);
+
+/*
  Frees an arrangement and all that was borrowed from it. NULL is allowed and does nothing. Surfaces made from it stay.
 
  Errors: none.
@@ -2867,7 +2900,8 @@ int32_t lap_arrangement_vertices(const struct lap_arrangement *arrangement,
                                  const double **xyz);
 
 /*
- What each vertex is, symbolically: LAP_VERTEX_MESH, or LAP_VERTEX_TRIANGLES.
+ What each vertex is, symbolically: LAP_VERTEX_MESH, or LAP_VERTEX_TRIANGLES; with half-spaces any but LAP_VERTEX_LEVEL, planes by the index of the
+ half-space (of coincident ones the lowest).
 
  Outputs (each may be NULL; borrowed until the arrangement is freed): count; kinds: count numbers LAP_VERTEX_*; ids: 3 × count, as
  LAP_VERTEX_* says, vertices and triangles counting through all operands (of equal vertices the first), -1 where unused.
@@ -2983,6 +3017,40 @@ int32_t lap_arrangement_cell_volume_exact(struct lap_context *context,
                                           const struct lap_arrangement *arrangement,
                                           int32_t cell,
                                           const char **volume);
+
+/*
+ The bounded cells as a complex on which all functions for lap_complex work but lap_complex_face_keys (LAP_ERR_BAD_ARGUMENT). Its mesh is that of all operands:
+ vertices and triangles count through them.
+
+ Cell c is cell c + 1 of the arrangement, and so has the winding numbers that lap_arrangement_windings gives for that. Faces are those of the
+ arrangement that divide, those parts of one triangle with the same births joined that only the triangulation separates: with holes, by the
+ lowest part. A face lies on the first triangle that it is a part of (LAP_SUPPORT_TRIANGLE); there may be a cell on either of its sides, or on both.
+ Vertices are those of the arrangement that such faces have, rising. lap_arrangement_complex_places tells which.
+
+ complex: borrowed until the arrangement is freed; do not free it.
+
+ Errors: LAP_ERR_TOO_LARGE, LAP_ERR_NULL_POINTER, LAP_ERR_CANCELLED, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: at the first call linear in
+ the faces, with a sort of all edges, then none. Memory: some 200 bytes a face.
+ */
+int32_t lap_arrangement_complex(struct lap_context *context,
+                                const struct lap_arrangement *arrangement,
+                                const struct lap_complex **complex);
+
+/*
+ Where the vertices and faces of the complex of an arrangement come from. Only after lap_arrangement_complex.
+
+ Outputs (each may be NULL; borrowed until the arrangement is freed): n_vertices: of the complex; vertices: for each that of the
+ arrangement; n_faces: of the complex; offsets: n_faces + 1; faces: face f of the complex consists of the faces
+ faces[offsets[f]] up to, not including, faces[offsets[f + 1]] of the arrangement.
+
+ Errors: LAP_ERR_NULL_POINTER if arrangement is NULL, LAP_ERR_BAD_ARGUMENT if there is no complex yet. Threads: any. Cost: none.
+ */
+int32_t lap_arrangement_complex_places(const struct lap_arrangement *arrangement,
+                                       int64_t *n_vertices,
+                                       const int32_t **vertices,
+                                       int64_t *n_faces,
+                                       const int32_t **offsets,
+                                       const int32_t **faces);
 
 /*
  The surface of a boolean of all operands: solid, which is to say that its triangles meet in common vertices and edges only, no two are the same,
@@ -3128,6 +3196,19 @@ int32_t lap_surface_volume(const struct lap_surface *surface,
 int32_t lap_surface_volume_exact(struct lap_context *context,
                                  const struct lap_surface *surface,
                                  const char **volume);
+
+/*
+ The solid that an arrangement's surface bounds as a complex, as lap_arrangement_complex: a cell for each part that is connected across faces, of
+ which the cells of the arrangement that were chosen are joined.
+
+ complex: borrowed until the surface is freed; do not free it.
+
+ Errors: LAP_ERR_BAD_ARGUMENT for the surface of a network; LAP_ERR_TOO_LARGE, LAP_ERR_NULL_POINTER, LAP_ERR_CANCELLED, LAP_ERR_OUT_OF_MEMORY,
+ LAP_ERR_BUSY. Cost: as there.
+ */
+int32_t lap_surface_complex(struct lap_context *context,
+                            const struct lap_surface *surface,
+                            const struct lap_complex **complex);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -1340,6 +1340,14 @@ public:
         return volume;
     }
 
+    /* What the surface of an arrangement's solid bounds, borrowed from this surface. */
+    class complex complex(context &with) const
+    {
+        const lap_complex *borrowed = nullptr;
+        with.run(lap_surface_complex(with.get(), get(), &borrowed));
+        return lapidary::complex(borrowed);
+    }
+
     const lap_surface *get() const { return handle_.get(); }
 
 private:
@@ -1722,6 +1730,20 @@ public:
         handle_.reset(made);
         with.run(status);
     }
+    /* With half-spaces a x + b y + c z + d < 0 (four numbers each) as further operands; bounds: six numbers, or none for a box around all vertices. */
+    arrangement(context &with, const std::vector<lap_operand> &operands, const std::vector<double> &half_spaces,
+                const std::vector<double> &bounds, const lap_arrangement_options &options = arrangement_options())
+    {
+        if (half_spaces.size() % 4 != 0) throw error(LAP_ERR_BAD_ARGUMENT, "half_spaces does not hold four numbers per plane");
+        if (!bounds.empty() && bounds.size() != 6) throw error(LAP_ERR_BAD_ARGUMENT, "bounds does not hold six numbers");
+        lap_arrangement *made = nullptr;
+        const std::int32_t status = lap_arrangement_new_half_spaces(
+            with.get(), static_cast<std::int64_t>(operands.size()), operands.data(),
+            static_cast<std::int64_t>(half_spaces.size() / 4), half_spaces.data(), bounds.empty() ? nullptr : bounds.data(),
+            &options, &made);
+        handle_.reset(made);
+        with.run(status);
+    }
 
     counts_t counts() const
     {
@@ -1801,6 +1823,26 @@ public:
         const char *volume = "";
         with.run(lap_arrangement_cell_volume_exact(with.get(), get(), cell, &volume));
         return volume;
+    }
+
+    /* The bounded cells, borrowed from this arrangement; of each vertex and face there those of the arrangement. */
+    struct places_t {
+        view<std::int32_t> vertices;
+        rows<std::int32_t> faces;
+    };
+    class complex complex(context &with) const
+    {
+        const lap_complex *borrowed = nullptr;
+        with.run(lap_arrangement_complex(with.get(), get(), &borrowed));
+        return lapidary::complex(borrowed);
+    }
+    /* Only after complex(). */
+    places_t complex_places() const
+    {
+        places_t p;
+        check(lap_arrangement_complex_places(get(), &p.vertices.count, &p.vertices.data, &p.faces.count, &p.faces.offsets,
+                                             &p.faces.items));
+        return p;
     }
 
     /* The surface of a solid: LAP_EXTRACT_*, an expression, a table with a byte for each cell, or a function of each cell and its winding

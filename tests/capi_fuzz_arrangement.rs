@@ -5,12 +5,13 @@
 mod random;
 
 use lapidary::capi::{
-    arrangement::*, arrangement_extract::*, arrangement_views::*, complex::*, context::*, status::*, surface::*,
+    arrangement::*, arrangement_extract::*, arrangement_views::*, complex::*, context::*, derived::*, status::*,
+    surface::*,
 };
 use random::Random;
 use rug::Rational;
 use std::collections::BTreeMap;
-use std::ffi::CStr;
+use std::ffi::{CStr, CString};
 use std::ptr::{null, null_mut};
 
 fn rounds(default: usize) -> usize {
@@ -399,4 +400,105 @@ fn soups_of_small_whole_numbers_add_up() {
         "{made} arrangements, {constructed} with points where triangles meet, {doubled} cells wound around twice; {bad} refused"
     );
     assert!(made > 5 * bad && bad > 0 && 2 * constructed > made && doubled > 0);
+}
+
+#[test]
+fn soups_and_half_spaces_add_up() {
+    let mut r = Random(0x706c_616e_6573);
+    let (mut made, mut refused, mut cells_on_planes) = (0, 0, 0);
+    unsafe {
+        let mut context = null_mut();
+        assert_eq!(lap_context_new(&mut context), LAP_OK);
+        for round in 0..rounds(200) {
+            if std::env::var_os("LAPIDARY_FUZZ_TRACE").is_some() {
+                eprintln!("half-spaces, round {round}");
+            }
+            let meshes: Vec<Mesh> = (0..r.below(3)).map(|_| soup(&mut r)).collect();
+            let given = operands(&meshes);
+            let scale = [1.0, 3.0, 0.1, 1e150, 1e-200][r.below(5) as usize];
+            let mut planes: Vec<[f64; 4]> = (0..1 + r.below(5))
+                .map(|_| {
+                    let n: [f64; 3] = std::array::from_fn(|_| r.within(2));
+                    [n[0], n[1], n[2], r.within(6) / 2.0].map(|x| scale * x)
+                })
+                .collect();
+            if r.below(3) == 0 {
+                // The same or the opposite one.
+                let sign = r.within(1);
+                planes.push(planes[0].map(|x| x * sign));
+            }
+            let bad = planes.iter().any(|p| p[..3] == [0.0; 3]);
+            let low: [f64; 3] = std::array::from_fn(|_| r.within(4) / 2.0);
+            let bounds = [low, low.map(|x| x + r.below(5) as f64)];
+            let flat = (0..3).any(|i| bounds[0][i] == bounds[1][i]);
+            let own = r.below(2) == 0;
+            let has_vertices = meshes.iter().any(|m| !m.xyz.is_empty());
+            let mut arrangement = null_mut();
+            let status = lap_arrangement_new_half_spaces(
+                context,
+                given.len() as i64,
+                given.as_ptr(),
+                planes.len() as i64,
+                planes.as_ptr().cast(),
+                if own { bounds.as_ptr().cast() } else { null() },
+                null(),
+                &mut arrangement,
+            );
+            assert_eq!(status == LAP_OK, !arrangement.is_null(), "round {round}");
+            let expected = match (bad, if own { flat } else { !has_vertices }) {
+                (true, _) => LAP_ERR_BAD_PLANE,
+                (_, true) => LAP_ERR_BAD_ARGUMENT,
+                _ => LAP_OK,
+            };
+            assert_eq!(status, expected, "round {round}");
+            if status != LAP_OK {
+                refused += 1;
+                continue;
+            }
+            made += 1;
+            let (mut complex, mut again) = (null(), null());
+            assert_eq!(lap_arrangement_complex(context, arrangement, &mut complex), LAP_OK, "round {round}");
+            assert_eq!(lap_complex_check(context, complex), LAP_OK, "round {round}");
+            let (mut count, mut cells, mut kinds) = (0, 0, null());
+            lap_arrangement_counts(arrangement, null_mut(), null_mut(), null_mut(), &mut cells, null_mut(), null_mut());
+            lap_complex_face_supports(complex, &mut count, &mut kinds, null_mut(), null_mut(), null_mut());
+            cells_on_planes += (0..count as usize).filter(|&i| *kinds.add(i) == LAP_SUPPORT_PLANE).count();
+            // The cells' volumes are the same from the complex, and winding numbers times volumes those of the meshes.
+            let (mut rows, mut of, mut w, mut at) = (null(), null(), null(), null());
+            lap_arrangement_cells(arrangement, &mut count, &mut rows, &mut of, &mut w);
+            let rows = offsets(rows, cells as usize);
+            let mut weighted = Rational::new();
+            for cell in 1..cells as i32 {
+                assert_eq!(lap_arrangement_cell_volume_exact(context, arrangement, cell, &mut at), LAP_OK);
+                let volume: Rational = text(at).parse().unwrap();
+                assert_eq!(lap_complex_cell_volume_exact(context, complex, cell - 1, &mut at), LAP_OK);
+                assert!(volume > 0 && text(at).parse::<Rational>().unwrap() == volume, "round {round}: cell {cell}");
+                for i in rows[cell as usize] as usize..rows[cell as usize + 1] as usize {
+                    if (*of.add(i) as usize) < meshes.len() {
+                        weighted += Rational::from(&volume * *w.add(i));
+                    } else {
+                        assert_eq!(*w.add(i), 1, "round {round}: a half-space in cell {cell}");
+                    }
+                }
+            }
+            let mut six = Rational::new();
+            for t in meshes.iter().flat_map(|m| m.triangles.iter().map(move |t| t.map(|v| m.xyz[v as usize]))) {
+                let [p, q, s] = t.map(|x| x.map(|x| Rational::from_f64(x).unwrap()));
+                six += determinant(&p, &q, &s);
+            }
+            assert_eq!(weighted, six / 6, "round {round}");
+            // A half-space and what is not in it.
+            let first = CString::new(format!("{}", meshes.len())).unwrap();
+            let mut surface = null_mut();
+            let status = lap_arrangement_extract_expression(context, arrangement, first.as_ptr(), &mut surface);
+            assert_eq!(status, LAP_OK, "round {round}");
+            assert_eq!(lap_surface_complex(context, surface, &mut again), LAP_OK, "round {round}");
+            assert_eq!(lap_complex_check(context, again), LAP_OK, "round {round}");
+            assert_eq!(lap_surface_free(surface), LAP_OK);
+            assert_eq!(lap_arrangement_free(arrangement), LAP_OK);
+        }
+        assert_eq!(lap_context_free(context), LAP_OK);
+    }
+    println!("{made} arrangements, {cells_on_planes} faces on planes; {refused} refused");
+    assert!(made > refused && refused > 0 && cells_on_planes > made);
 }

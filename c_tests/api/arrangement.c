@@ -428,11 +428,142 @@ static void expressions(lap_context *context)
     STATUS(LAP_OK, lap_arrangement_free(a));
 }
 
+/* The cells as a complex: two cubes that overlap in half a cube, and a solid of both. */
+static void complexes(lap_context *context)
+{
+    box one, two;
+    lap_operand operands[2];
+    lap_arrangement *a;
+    lap_surface *surface = NULL;
+    const lap_complex *complex = NULL, *again = NULL;
+    const double *volumes = NULL, *of_cells = NULL;
+    const int32_t *cells = NULL, *kinds = NULL, *ids = NULL, *vertices = NULL, *offsets = NULL, *faces = NULL;
+    const int64_t *keys = NULL;
+    const char *text = NULL;
+    int64_t n_cells = 0, count = 0, n_vertices = 0, n_faces = 0, i, k;
+    int32_t side = 0;
+    operands[0] = boxed(&one, 0, 0, 0, 0);
+    operands[1] = boxed(&two, 1, 0, 0, 1);
+    a = arranged(context, 2, operands);
+    STATUS(LAP_ERR_BAD_ARGUMENT, lap_arrangement_complex_places(a, NULL, NULL, NULL, NULL, NULL));
+    STATUS_IN(context, LAP_OK, lap_arrangement_complex(context, a, &complex));
+    STATUS_IN(context, LAP_OK, lap_arrangement_complex(context, a, &again));
+    CHECK(complex != NULL && complex == again);
+    STATUS_IN(context, LAP_OK, lap_complex_check(context, complex));
+    STATUS(LAP_OK, lap_complex_counts(complex, &n_vertices, NULL, &n_faces, &n_cells, NULL, NULL, NULL));
+    CHECK(n_cells == 3);
+    STATUS(LAP_OK, lap_arrangement_cell_volumes(a, &count, &of_cells));
+    STATUS(LAP_OK, lap_complex_cell_moments(complex, &n_cells, &volumes, NULL, NULL));
+    for (i = 0; i < n_cells; ++i) CHECK(volumes[i] == 4 && of_cells[i + 1] == 4);
+    STATUS_IN(context, LAP_OK, lap_complex_cell_volume_exact(context, complex, 1, &text));
+    CHECK(text != NULL && strcmp(text, "4") == 0);
+
+    /* The cells beside each face are those beside the faces that it consists of. */
+    STATUS(LAP_OK, lap_arrangement_complex_places(a, &count, &vertices, &n_faces, &offsets, &faces));
+    CHECK(count == n_vertices && csr_in_range(offsets, n_faces, faces, 0, 1000));
+    STATUS(LAP_OK, lap_complex_face_cells(complex, &count, &cells));
+    CHECK(count == n_faces);
+    STATUS(LAP_OK, lap_arrangement_faces(a, NULL, NULL, NULL, &ids));
+    for (i = 0; i < n_faces; ++i)
+        for (k = offsets[i]; k < offsets[i + 1]; ++k)
+            CHECK(cells[2 * i] == ids[2 * faces[k]] - 1 && cells[2 * i + 1] == ids[2 * faces[k] + 1] - 1);
+    STATUS(LAP_OK, lap_complex_face_supports(complex, &count, &kinds, &ids, NULL, NULL));
+    for (i = 0; i < count; ++i) CHECK(kinds[i] == LAP_SUPPORT_TRIANGLE && ids[i] >= 0 && ids[i] < 24);
+    STATUS(LAP_OK, lap_complex_vertex_origins(complex, &count, &kinds, &ids));
+    for (i = 0; i < count; ++i) CHECK(kinds[i] == LAP_VERTEX_MESH || kinds[i] == LAP_VERTEX_TRIANGLES);
+    STATUS(LAP_OK, lap_complex_vertex_keys(complex, &count, &keys));
+    CHECK(count == n_vertices && keys != NULL);
+    STATUS(LAP_ERR_BAD_ARGUMENT, lap_complex_face_keys(complex, &count, &keys));
+    STATUS(LAP_ERR_BAD_ARGUMENT, lap_complex_cell_side(complex, 0, 0, &side));
+    STATUS(LAP_ERR_NULL_POINTER, lap_arrangement_complex(context, a, NULL));
+    STATUS(LAP_ERR_NULL_POINTER, lap_arrangement_complex(context, NULL, &complex));
+    CHECK(complex == NULL);
+    STATUS(LAP_ERR_NULL_POINTER, lap_arrangement_complex_places(NULL, NULL, NULL, NULL, NULL, NULL));
+
+    /* Inside the first, not the second (which is inside out, so inside of nothing): one cell, or what is not in both. */
+    STATUS_IN(context, LAP_OK, lap_arrangement_extract(context, a, LAP_EXTRACT_UNION, 1, &surface));
+    STATUS_IN(context, LAP_OK, lap_surface_complex(context, surface, &complex));
+    STATUS(LAP_OK, lap_arrangement_free(a));
+    STATUS_IN(context, LAP_OK, lap_complex_check(context, complex));
+    STATUS(LAP_OK, lap_complex_cell_moments(complex, &n_cells, &volumes, NULL, NULL));
+    CHECK(n_cells == 1 && volumes[0] == 8);
+    STATUS(LAP_ERR_NULL_POINTER, lap_surface_complex(context, surface, NULL));
+    STATUS(LAP_ERR_NULL_POINTER, lap_surface_complex(context, NULL, &complex));
+    STATUS(LAP_OK, lap_surface_free(surface));
+}
+
+static void surface_is(lap_context *context, const lap_arrangement *a, const char *expression, const char *volume)
+{
+    lap_surface *surface = NULL;
+    const char *text = NULL;
+    STATUS_IN(context, LAP_OK, lap_arrangement_extract_expression(context, a, expression, &surface));
+    STATUS_IN(context, LAP_OK, lap_surface_volume_exact(context, surface, &text));
+    CHECK(text != NULL && strcmp(text, volume) == 0);
+    CHECK(is_closed(surface));
+    STATUS(LAP_OK, lap_surface_free(surface));
+}
+
+/* A cube of edge 2 and half-spaces: x < 1/3, which no double is; a corner cut off; one whose plane is on a side. */
+static void half_spaces(lap_context *context)
+{
+    const double planes[12] = {3, 0, 0, -1, 0.5, 0.5, 0.5, -0.5, 0, 0, 1, -2};
+    double bounds[6] = {-1, -1, -1, 5, 5, 5}, bad[8] = {1, 0, 0, 0, 0, 0, 0, 1};
+    box b;
+    const lap_operand cube = boxed(&b, 0, 0, 0, 0);
+    lap_arrangement *a = NULL;
+    const lap_complex *complex = NULL;
+    const int64_t *first = NULL;
+    const int32_t *kinds = NULL, *ids = NULL, *operands = NULL, *triangles = NULL;
+    int64_t count = 0, i, on_planes = 0;
+    STATUS_IN(context, LAP_OK, lap_arrangement_new_half_spaces(context, 1, &cube, 3, planes, NULL, NULL, &a));
+    surface_is(context, a, "0 & 1", "4/3");
+    surface_is(context, a, "0 - 1", "20/3");
+    surface_is(context, a, "0 & 2", "1/6");
+    surface_is(context, a, "0 & 3", "8");
+    surface_is(context, a, "0 - 3", "0");
+    surface_is(context, a, "0 & 1 & 2", "19/162");
+    STATUS(LAP_OK, lap_arrangement_operands(a, &count, NULL, &first, NULL));
+    CHECK(count == 4 && first[1] == 12 && first[2] == 25 && first[4] == 51);
+    STATUS(LAP_OK, lap_arrangement_face_births(a, &count, NULL, &operands, &triangles, NULL));
+    STATUS(LAP_OK, lap_arrangement_vertex_origins(a, &count, &kinds, &ids));
+    for (i = 0; i < count; ++i) CHECK(kinds[i] >= LAP_VERTEX_MESH && kinds[i] <= LAP_VERTEX_TRIANGLES_PLANE);
+    STATUS_IN(context, LAP_OK, lap_arrangement_complex(context, a, &complex));
+    STATUS_IN(context, LAP_OK, lap_complex_check(context, complex));
+    STATUS(LAP_OK, lap_complex_face_supports(complex, &count, &kinds, &ids, NULL, NULL));
+    for (i = 0; i < count; ++i) {
+        on_planes += kinds[i] == LAP_SUPPORT_PLANE;
+        CHECK(kinds[i] == LAP_SUPPORT_PLANE ? ids[i] >= 0 && ids[i] < 3 : ids[i] >= 0 && ids[i] < 51);
+    }
+    CHECK(on_planes > 3);
+    STATUS(LAP_OK, lap_arrangement_free(a));
+
+    /* Within bounds alone. */
+    STATUS_IN(context, LAP_OK, lap_arrangement_new_half_spaces(context, 0, NULL, 3, planes, bounds, NULL, &a));
+    surface_is(context, a, "0", "48");
+    surface_is(context, a, "2", "108");
+    STATUS(LAP_OK, lap_arrangement_free(a));
+
+    a = (lap_arrangement *)&a;
+    STATUS(LAP_ERR_BAD_PLANE, lap_arrangement_new_half_spaces(context, 1, &cube, 2, bad, NULL, NULL, &a));
+    CHECK(a == NULL && has_message(context));
+    STATUS(LAP_OK, lap_context_last_defects(context, &count, &kinds, NULL));
+    CHECK(count == 1 && kinds[0] == LAP_DEFECT_ZERO_NORMAL);
+    STATUS(LAP_ERR_BAD_ARGUMENT, lap_arrangement_new_half_spaces(context, 0, NULL, 3, planes, NULL, NULL, &a));
+    bounds[3] = -1;
+    STATUS(LAP_ERR_BAD_ARGUMENT, lap_arrangement_new_half_spaces(context, 1, &cube, 3, planes, bounds, NULL, &a));
+    STATUS(LAP_ERR_BAD_ARGUMENT, lap_arrangement_new_half_spaces(context, 1, &cube, -1, planes, NULL, NULL, &a));
+    STATUS(LAP_ERR_NULL_POINTER, lap_arrangement_new_half_spaces(context, 1, &cube, 1, NULL, NULL, NULL, &a));
+    STATUS(LAP_ERR_NULL_POINTER, lap_arrangement_new_half_spaces(context, 1, &cube, 3, planes, NULL, NULL, NULL));
+    STATUS(LAP_ERR_NULL_POINTER, lap_arrangement_new_half_spaces(NULL, 1, &cube, 3, planes, NULL, NULL, &a));
+    CHECK(has_message(context));
+}
+
 static void null_pointers(lap_context *context)
 {
     const double xyz[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
     const double values[4] = {-1, 1, 1, 1};
     const int32_t tet[4] = {0, 1, 2, 3};
+    const lap_complex *complex = NULL;
     lap_network *network = NULL;
     lap_surface *surface = NULL;
     const char *text = NULL;
@@ -464,6 +595,7 @@ static void null_pointers(lap_context *context)
     STATUS(LAP_ERR_BAD_ARGUMENT, lap_surface_triangles(surface, &count, NULL, NULL, NULL, NULL));
     STATUS(LAP_ERR_BAD_ARGUMENT, lap_surface_volume(surface, &volume));
     STATUS(LAP_ERR_BAD_ARGUMENT, lap_surface_volume_exact(context, surface, &text));
+    STATUS(LAP_ERR_BAD_ARGUMENT, lap_surface_complex(context, surface, &complex));
     CHECK(has_message(context));
     STATUS(LAP_OK, lap_surface_euler(surface, &euler));
     CHECK(euler == 1);
@@ -484,6 +616,8 @@ void test_arrangement(void)
     crossing(context);
     touching(context);
     expressions(context);
+    complexes(context);
+    half_spaces(context);
     null_pointers(context);
     STATUS(LAP_OK, lap_context_free(context));
     test_arrangement_callbacks();

@@ -15,7 +15,7 @@ use crate::base::parallel::map_ranges;
 use crate::base::{CellId, Error, FaceId, Result, Run, SharedUnionFind, Status, UnionFind, VertexId};
 use crate::complex::radial::sort_around;
 use crate::complex::{HalfFace, SupportId};
-use crate::exact::{self, Direction};
+use crate::exact;
 use rayon::prelude::*;
 use std::cmp::Ordering;
 
@@ -81,7 +81,7 @@ fn join_around(r: &Resolved, p: &Patches, e: usize, order: &mut Vec<u32>, sets: 
     let triangle = |i: u32| r.support[walk(i).face().at()];
     let same = |i: u32, j: u32| walk(i).forward() == walk(j).forward();
     let support = |i: u32| SupportId::Triangle(triangle(i));
-    let normal = |i: u32| Direction::Triangle(r.soup.mesh.corners(triangle(i)));
+    let normal = |i: u32| r.soup.direction(triangle(i));
     sort_around(order, axis, rises, support, normal, same);
     for (k, &i) in order.iter().enumerate() {
         let j = order[if k + 1 == order.len() { 0 } else { k + 1 }];

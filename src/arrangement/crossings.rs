@@ -12,7 +12,7 @@ use super::data::{Carrier, Clusters, Contacts, Graphs, Segment, Soup};
 use super::intersect::dedup_from;
 use super::planar::Plane;
 use super::points;
-use crate::base::{Csr, EdgeId, Result, Run, TriangleId, VertexId};
+use crate::base::{Csr, EdgeId, PlaneId, Result, Run, TriangleId, VertexId};
 use crate::complex::Origin;
 use crate::mesh::bvh::build_bvh;
 use rayon::prelude::*;
@@ -61,7 +61,7 @@ pub fn crossings(soup: &Soup, contacts: Contacts, clusters: &Clusters, run: &mut
     origins.dedup();
     let Contacts { points, split_edges, edge_points, .. } = contacts;
     let mut graphs = Graphs { points, split_edges, edge_points, ..Graphs::default() };
-    let ids = points::unify(mesh, &mut graphs.points, &origins);
+    let ids = points::unify(soup, &mut graphs.points, &origins);
     let id = |e: &Event| if e.known.is_some() { e.known } else { ids[origins.partition_point(|o| *o < e.new)] };
     let piece = |(c, work): (usize, &Work)| pieces(soup, &graphs, clusters.members.row(c), work, id);
     let parts: Vec<(Vec<[VertexId; 2]>, Vec<VertexId>)> =
@@ -87,7 +87,7 @@ fn find(soup: &Soup, contacts: &Contacts, members: &[TriangleId]) -> Work {
     if inner == 0 || (inner == 1 && members.len() == 1) {
         return work;
     }
-    let plane = Plane::new(mesh, &contacts.points, members[0]);
+    let plane = Plane::new(soup, &contacts.points, members[0]);
     // Behind the segments the members' edges, where there may be contact.
     let mut all = work.segments.clone();
     if members.len() > 1 {
@@ -117,7 +117,8 @@ fn find(soup: &Soup, contacts: &Contacts, members: &[TriangleId]) -> Work {
 
 /// Edges of members, each once, rising.
 fn edges_of(soup: &Soup, members: &[TriangleId]) -> impl Iterator<Item = EdgeId> {
-    let mut edges: Vec<EdgeId> = members.iter().flat_map(|t| soup.mesh.triangle_edges[t.at()]).collect();
+    let mut edges: Vec<EdgeId> =
+        members.iter().filter_map(|t| soup.mesh.triangle_edges.get(t.at())).flatten().copied().collect();
     edges.sort_unstable();
     edges.dedup();
     edges.into_iter()
@@ -169,7 +170,7 @@ fn meet(plane: &Plane, all: &[Segment], inner: usize, i: usize, j: usize, events
     let zero = |of: [crate::exact::Sign; 2]| of.iter().position(|s| s.is_zero());
     match (zero(of_s), zero(of_t)) {
         (None, None) => {
-            let new = crossing(plane.of, s.carrier, t.carrier);
+            let new = crossing(plane.soup, plane.of, s.carrier, t.carrier);
             note(i, VertexId::NONE, new);
             note(j, VertexId::NONE, new);
         }
@@ -181,14 +182,26 @@ fn meet(plane: &Plane, all: &[Segment], inner: usize, i: usize, j: usize, events
 }
 
 /// The point where two carriers cross in the plane of a triangle.
-fn crossing(of: TriangleId, a: Carrier, b: Carrier) -> Origin {
+fn crossing(soup: &Soup, of: TriangleId, a: Carrier, b: Carrier) -> Origin {
     match (a, b) {
         (Carrier::Plane(p), Carrier::Plane(q)) => {
+            // Sheets come behind triangles.
             let mut all = [of, p, q];
             all.sort_unstable();
-            Origin::Triangles(all[0], all[1], all[2])
+            match all.map(|t| soup.sheet(t)) {
+                [None, None, None] => Origin::Triangles(all[0], all[1], all[2]),
+                [None, None, Some(p)] => Origin::TrianglesPlane(all[0], all[1], p),
+                [None, Some(p), Some(q)] => Origin::Triangle(all[0], p, q),
+                [p, q, r] => {
+                    let [p, q, r] = [p, q, r].map(|p| p.unwrap_or(PlaneId::NONE));
+                    Origin::Planes(p, q, r)
+                }
+            }
         }
-        (Carrier::Edge(e), Carrier::Plane(t)) | (Carrier::Plane(t), Carrier::Edge(e)) => Origin::EdgeTriangle(e, t),
+        (Carrier::Edge(e), Carrier::Plane(t)) | (Carrier::Plane(t), Carrier::Edge(e)) => match soup.sheet(t) {
+            None => Origin::EdgeTriangle(e, t),
+            Some(p) => Origin::Edge(e, p),
+        },
         (Carrier::Edge(e), Carrier::Edge(f)) => Origin::Edges(e.min(f), e.max(f)),
     }
 }
@@ -199,8 +212,8 @@ fn within(plane: &Plane, s: &Segment, v: VertexId) -> bool {
     if v == a || v == b {
         return false;
     }
-    let axis = points::open_axis(plane.mesh, plane.points, a, b);
-    let order = |p: VertexId, q: VertexId| points::compare(plane.mesh, plane.points, p, q, axis);
+    let axis = points::open_axis(plane.soup, plane.points, a, b);
+    let order = |p: VertexId, q: VertexId| points::compare(plane.soup, plane.points, p, q, axis);
     order(a, v) == order(v, b)
 }
 
@@ -231,8 +244,8 @@ fn pieces(
         row.extend(here.iter().map(|e| e.1));
         row.extend([a, b]);
         if row.len() > 2 {
-            let axis = points::open_axis(mesh, &graphs.points, a, b);
-            row.sort_unstable_by(|&p, &q| points::compare(mesh, &graphs.points, p, q, axis));
+            let axis = points::open_axis(soup, &graphs.points, a, b);
+            row.sort_unstable_by(|&p, &q| points::compare(soup, &graphs.points, p, q, axis));
             dedup_from(&mut row, 0);
         }
         chain(&row);
@@ -262,7 +275,7 @@ fn pieces(
 impl Graphs {
     /// Points are distinct; pieces rise, with different ends, lower first; lone vertices are on no piece.
     pub fn check(&self, soup: &Soup, clusters: &Clusters) -> std::result::Result<(), String> {
-        self.points.check(&soup.mesh)?;
+        self.points.check(soup)?;
         self.pieces.check()?;
         self.lone.check()?;
         if self.pieces.len() != clusters.members.len() || self.lone.len() != clusters.members.len() {

@@ -1,10 +1,10 @@
 //! What the stages of an arrangement hand to one another: plain flat arrays, each with a `check()` where its stage is.
 //!
 //! Vertices: ids below `soup.mesh.vertices.len()` are input positions, those from there on are constructed ([`Points`]). Two ids are never
-//! the same point. Triangles and edges are those of the soup: all operands behind one another.
+//! the same point. Triangles and edges are those of the soup: all operands behind one another, then the sheets of half-spaces ([`super::supports`]).
 
+use super::supports::HalfSpaces;
 use crate::base::{CellId, Csr, EdgeId, FaceId, OperandId, PatchId, TriangleId, VertexId};
-use crate::complex::data::origin_point;
 use crate::complex::{HalfFace, Origin};
 use crate::exact::Point;
 use crate::mesh::TriMesh;
@@ -28,6 +28,8 @@ pub struct Soup {
     pub source: Vec<u32>,
     /// Triangles without area that were dropped, per operand.
     pub dropped: Vec<u32>,
+    /// The last operands, if there are any: see [`super::supports`].
+    pub half_spaces: HalfSpaces,
 }
 
 /// Constructed points, in the order of their ids, from `soup.mesh.vertices.len()` on.
@@ -134,7 +136,7 @@ impl Resolved {
     }
     /// The exact, symbolic point of a vertex.
     pub fn point(&self, v: VertexId) -> Point {
-        origin_point(&self.soup.mesh, &[], self.origin(v))
+        self.soup.point(self.origin(v))
     }
 }
 

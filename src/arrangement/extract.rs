@@ -156,7 +156,7 @@ pub fn extract(a: &Arrangement, inside: &[bool]) -> Result<Extraction> {
         let birth = birth.unwrap_or(Birth { triangle: resolved.support[f], same: true });
         out.triangles.push(corners.map(|v| v.0));
         out.faces.push(face);
-        out.births.push((resolved.soup.operand(birth.triangle), resolved.soup.source[birth.triangle.at()]));
+        out.births.push((resolved.soup.operand(birth.triangle), resolved.soup.place(birth.triangle)));
         out.flipped.push(flipped == birth.same);
     }
     for (v, n) in number.iter_mut().enumerate().filter(|(_, n)| **n == 0) {

@@ -11,10 +11,10 @@
 use super::data::{Carrier, Contacts, Points, Segment, Soup};
 use super::pair::{Sink, meet};
 use super::points;
+use super::sheets;
 use super::stars::flat_stars;
-use crate::base::{EdgeId, Result, Run, TriangleId, VertexId};
+use crate::base::{EdgeId, PlaneId, Result, Run, TriangleId, VertexId};
 use crate::complex::Origin;
-use crate::mesh::TriMesh;
 use crate::mesh::bvh::{NodePair, build_bvh};
 use rayon::prelude::*;
 
@@ -22,6 +22,8 @@ use rayon::prelude::*;
 /// caller wants to stop.
 const PART: usize = 1 << 9;
 const AT_ONCE: usize = 1 << 9;
+/// Looks of planes at triangles between two such looks.
+const SHEETS: usize = 1 << 22;
 
 /// What pairs told.
 #[derive(Default)]
@@ -65,7 +67,10 @@ pub fn intersect(soup: &Soup, run: &mut Run) -> Result<Contacts> {
     let decide = |&pair: &NodePair| {
         let mut part = Found::default();
         tree.meeting_pairs_below(pair, |a, b| {
-            if !stars.settle(&mesh.triangles[a.at()], &mesh.triangles[b.at()]) {
+            if !soup.is_passive(a)
+                && !soup.is_passive(b)
+                && !stars.settle(&mesh.triangles[a.at()], &mesh.triangles[b.at()])
+            {
                 part.pairs += meet(mesh, a.min(b), a.max(b), &mut part) as u64;
             }
         });
@@ -81,11 +86,40 @@ pub fn intersect(soup: &Soup, run: &mut Run) -> Result<Contacts> {
         run.tick("intersect", 0.2)?;
     }
     drop(tree);
+    meet_sheets(soup, &mut found, run)?;
     run.tick("intersect", 0.3)?;
-    Ok(gather(mesh, found))
+    Ok(gather(soup, found))
 }
 
-fn gather(mesh: &TriMesh, mut found: Found) -> Contacts {
+/// Intersects the planes of half-spaces with all triangles and with one another.
+fn meet_sheets(soup: &Soup, found: &mut Found, run: &mut Run) -> Result<()> {
+    let stands = &soup.half_spaces.stands;
+    let each = |p: usize| {
+        let mut part = Found::default();
+        let own = PlaneId::of(p);
+        if stands[p] != own {
+            part.overlap(soup.sheet_of(stands[p]), soup.sheet_of(own));
+            return part;
+        }
+        part.pairs += sheets::meet_triangles(soup, own, &mut part);
+        for q in (p + 1..stands.len()).filter(|&q| stands[q] == PlaneId::of(q)) {
+            if !sheets::are_parallel(&soup.planes()[p], &soup.planes()[q]) {
+                part.pairs += sheets::meet_planes(soup, own, PlaneId::of(q), &mut part) as u64;
+            }
+        }
+        part
+    };
+    let at_once = (SHEETS / soup.mesh.triangles.len().max(1)).clamp(1, 64);
+    for block in (0..stands.len()).collect::<Vec<_>>().chunks(at_once) {
+        let parts: Vec<Found> = block.par_iter().with_max_len(1).map(|&p| each(p)).collect();
+        parts.into_iter().for_each(|part| found.add(part));
+        run.tick("intersect", 0.3)?;
+    }
+    Ok(())
+}
+
+fn gather(soup: &Soup, mut found: Found) -> Contacts {
+    let mesh = &*soup.mesh;
     found.on_edges.par_sort_unstable();
     found.on_edges.dedup();
     found.in_triangles.par_sort_unstable();
@@ -96,20 +130,21 @@ fn gather(mesh: &TriMesh, mut found: Found) -> Contacts {
     origins.par_sort_unstable();
     origins.dedup();
     let mut points = Points::default();
-    let ids = points::unify(mesh, &mut points, &origins);
+    let ids = points::unify(soup, &mut points, &origins);
     let id = |o: &Origin| ids[origins.partition_point(|p| p < o)];
     let mut contacts = Contacts { pair_count: found.pairs, overlaps: found.overlaps, ..Contacts::default() };
     for row in found.on_edges.chunk_by(|a, b| a.0 == b.0) {
         let edge = row[0].0;
         let start = contacts.edge_points.items.len();
         contacts.edge_points.items.extend(row.iter().map(|p| id(&p.1)));
-        order_on_edge(mesh, &points, edge, &mut contacts.edge_points.items, start);
+        order_on_edge(soup, &points, edge, &mut contacts.edge_points.items, start);
         contacts.edge_points.end_row();
         contacts.split_edges.push(edge);
     }
     let of_split = contacts.split_edges.iter().flat_map(|e| mesh.edge_uses.row(*e)).map(|u| u.triangle);
     let with_segments = found.in_triangles.iter().map(|s| s.0);
     let overlapping = contacts.overlaps.iter().flatten().copied();
+    let of_split = of_split.filter(|t| !soup.is_passive(*t));
     contacts.cut = of_split.chain(with_segments).chain(overlapping).collect();
     contacts.cut.par_sort_unstable();
     contacts.cut.dedup();
@@ -131,12 +166,13 @@ fn gather(mesh: &TriMesh, mut found: Found) -> Contacts {
 }
 
 /// Sorts the vertices from `start` on along an edge, from its lower end to its higher one, each once.
-pub fn order_on_edge(mesh: &TriMesh, points: &Points, edge: EdgeId, items: &mut Vec<VertexId>, start: usize) {
+pub fn order_on_edge(soup: &Soup, points: &Points, edge: EdgeId, items: &mut Vec<VertexId>, start: usize) {
+    let mesh = &*soup.mesh;
     let [a, b] = mesh.edges[edge.at()];
-    let axis = points::open_axis(mesh, points, a, b);
+    let axis = points::open_axis(soup, points, a, b);
     let rising = mesh.vertices[a.at()][axis] < mesh.vertices[b.at()][axis];
     items[start..].sort_unstable_by(|&p, &q| {
-        let order = points::compare(mesh, points, p, q, axis);
+        let order = points::compare(soup, points, p, q, axis);
         if rising { order } else { order.reverse() }
     });
     dedup_from(items, start);
@@ -158,7 +194,7 @@ impl Contacts {
     /// Lists rise, ids are in range, points are distinct and rounded, edges' points lie between their ends in order.
     pub fn check(&self, soup: &Soup) -> std::result::Result<(), String> {
         let mesh = &*soup.mesh;
-        self.points.check(mesh)?;
+        self.points.check(soup)?;
         self.edge_points.check()?;
         self.segments.check()?;
         let rising = self.split_edges.windows(2).all(|w| w[0] < w[1]) && self.cut.windows(2).all(|w| w[0] < w[1]);
@@ -178,10 +214,10 @@ impl Contacts {
         }
         for (e, row) in self.split_edges.iter().zip(self.edge_points.rows()) {
             let [a, b] = mesh.edges[e.at()];
-            let axis = points::open_axis(mesh, &self.points, a, b);
+            let axis = points::open_axis(soup, &self.points, a, b);
             let all: Vec<VertexId> = std::iter::once(a).chain(row.iter().copied()).chain([b]).collect();
             let orders: Vec<_> =
-                all.windows(2).map(|w| points::compare(mesh, &self.points, w[0], w[1], axis)).collect();
+                all.windows(2).map(|w| points::compare(soup, &self.points, w[0], w[1], axis)).collect();
             if row.is_empty() || orders[0].is_eq() || orders.iter().any(|o| *o != orders[0]) {
                 return Err(format!("points on edge {} are not in order", e.0));
             }

@@ -1,11 +1,12 @@
 //! Arrangements of triangle meshes: the cells into which any number of meshes divide space, each with its winding-number vector; booleans are an
 //! extraction from it (the Mesh Arrangements paper, DESIGN §6).
 //!
-//! Stages in pipeline order: [`soup`] → [`intersect`] (with [`stars`], [`pair`], [`points`]) → [`clusters`] → [`crossings`] → [`triangulate`] →
-//! [`resolve`] → [`patches`] → [`cells`] (with [`nesting`]) → [`winding`] → [`extract`] (→ [`certify`], with [`snap`]).
+//! Stages in pipeline order: [`soup`] → [`intersect`] (with [`stars`], [`pair`], [`sheets`], [`points`]) → [`clusters`] → [`crossings`] → [`triangulate`] →
+//! [`resolve`] (→ [`clip`], of half-spaces: [`supports`]) → [`patches`] → [`cells`] (with [`nesting`]) → [`winding`] → [`extract`] (→ [`certify`], with [`snap`]) or [`solids`].
 
 pub mod cells;
 pub mod certify;
+pub mod clip;
 pub mod clusters;
 pub mod crossings;
 pub mod data;
@@ -17,9 +18,12 @@ pub mod patches;
 pub mod planar;
 pub mod points;
 pub mod resolve;
+pub mod sheets;
 pub mod snap;
+pub mod solids;
 pub mod soup;
 pub mod stars;
+pub mod supports;
 pub mod triangulate;
 pub mod volumes;
 pub mod winding;
@@ -29,7 +33,7 @@ pub use extract::{Extraction, Selection, choose, extract};
 
 use crate::base::{CellId, FaceId, Result, Run, VertexId};
 use crate::complex::{HalfFace, Origin};
-use crate::exact::Point;
+use crate::exact::{Plane, Point};
 
 /// Nothing to choose yet.
 #[derive(Clone, Copy, Debug, Default)]
@@ -88,15 +92,30 @@ impl Arrangement {
 ///
 /// Errors: `BadMesh` with every coordinate that is not finite, every index out of range, every edge of an operand that does not balance
 /// (the message names the operand); `TooLarge`; `Cancelled`.
-pub fn arrange(operands: &[Operand], _options: &ArrangementOptions, run: &mut Run) -> Result<Arrangement> {
-    let soup = soup::soup(operands, run)?;
+pub fn arrange(operands: &[Operand], options: &ArrangementOptions, run: &mut Run) -> Result<Arrangement> {
+    arrange_with(operands, &[], None, options, run)
+}
+
+/// The same with half-spaces n·x + d < 0 as further operands, numbered behind the others. Each is its part within a box, the bounds (lowest and highest corner;
+/// `None`: the box of all meshes, with as much room on each side as it is large): what is farther out has winding number 0.
+///
+/// Errors: as [`arrange`]; `BadPlane` with every plane that is not finite or has a zero normal; `BadArgument` for bounds that are no box.
+pub fn arrange_with(
+    operands: &[Operand],
+    half_spaces: &[Plane],
+    bounds: Option<[[f64; 3]; 2]>,
+    _options: &ArrangementOptions,
+    run: &mut Run,
+) -> Result<Arrangement> {
+    let soup = soup::soup_with(operands, half_spaces, bounds, run)?;
     let contacts = intersect::intersect(&soup, run)?;
     let clusters = clusters::clusters(&contacts);
     debug_assert_eq!(clusters.check(&contacts), Ok(()));
     let pair_count = contacts.pair_count;
     let graphs = crossings::crossings(&soup, contacts, &clusters, run)?;
-    let resolved = resolve::resolve(soup, graphs, &clusters, pair_count, run)?;
+    let mut resolved = resolve::resolve(soup, graphs, &clusters, pair_count, run)?;
     drop(clusters);
+    clip::clip(&mut resolved);
     debug_assert_eq!(resolved.check(), Ok(()));
     run.stage("patches", 0.7)?;
     let patches = patches::patches(&resolved, run)?;

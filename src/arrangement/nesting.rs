@@ -25,8 +25,8 @@ use super::patches::Patches;
 use crate::base::parallel::{concat, map_ranges};
 use crate::base::{Error, FaceId, Result, Run, SharedUnionFind, Status};
 use crate::complex::HalfFace;
-use crate::exact::{self, Sign};
-use crate::mesh::projection::{ROUNDOFF, TINY, turn};
+use crate::exact::{self, Plane, Sign, Support};
+use crate::mesh::projection::{ROUNDOFF, TINY};
 use crate::mesh::ray::height;
 use rug::{Integer, Rational};
 use std::cmp::Ordering;
@@ -130,12 +130,9 @@ fn starts(r: &Resolved, patches: &Patches, component: &[u32], count: usize) -> R
             continue;
         }
         let place = &mut start[component[side.patch().at()] as usize];
-        if place.is_none() {
-            let [a, b, c] = r.soup.mesh.corners(r.support[f]);
-            if turn(&a, &b, &c, AXIS) != Sign::Zero {
-                *place = FaceId::of(f);
-                missing -= 1;
-            }
+        if place.is_none() && r.soup.turn_along(r.support[f], AXIS) != Sign::Zero {
+            *place = FaceId::of(f);
+            missing -= 1;
         }
     }
     if missing > 0 {
@@ -334,7 +331,10 @@ fn in_order(r: &Resolved, line: &Line, hits: &[Hit]) -> Result<Vec<Option<HalfFa
         }
         if to > from + 1 {
             for m in &mut all[from..to] {
-                m.height = Some(height(&p, &r.soup.mesh.corners(r.support[m.far.face().at()]), AXIS));
+                m.height = Some(match r.soup.support(r.support[m.far.face().at()]) {
+                    Support::Triangle(t) => height(&p, &t, AXIS),
+                    Support::Plane(plane) => plane_height(&p, &plane),
+                });
             }
             all[from..to].sort_by(|a, b| a.height.cmp(&b.height));
             if let Some(w) = all[from..to].windows(2).find(|w| w[0].height == w[1].height) {
@@ -344,4 +344,11 @@ fn in_order(r: &Resolved, line: &Line, hits: &[Hit]) -> Result<Vec<Option<HalfFa
         from = to;
     }
     Ok(std::iter::once(None).chain(all.into_iter().map(|m| Some(m.far))).chain([None]).collect())
+}
+
+/// Where a line along the axis through a point meets a plane that is not parallel to it.
+fn plane_height(p: &[Rational; 3], plane: &Plane) -> Rational {
+    let of = |x: f64| Rational::from_f64(x).unwrap_or_default();
+    let sum = SEEN.iter().fold(of(plane.d), |sum, &i| sum + of(plane.n[i]) * &p[i]);
+    -sum / of(plane.n[AXIS])
 }

@@ -8,19 +8,18 @@
 //! The side of a triangle's plane: n·d with n = e × f exact but for rounding; d = x − b is off by 2uM in each coordinate: Σ mᵢ (2uM + 16u|dᵢ|)
 //! where mᵢ bounds |nᵢ|; doubled.
 
-use super::data::{Carrier, Points};
+use super::data::{Carrier, Points, Soup};
 use super::points;
-use crate::base::{EdgeId, TriangleId, VertexId};
+use crate::base::{EdgeId, PlaneId, TriangleId, VertexId};
 use crate::complex::Origin;
 use crate::exact::counters::{Predicate, Tier, count};
 use crate::exact::{self, Sign, Support};
-use crate::mesh::TriMesh;
-use crate::mesh::projection::{ROUNDOFF, open_axis, seen_along};
+use crate::mesh::projection::{ROUNDOFF, seen_along};
 
 /// A plane to work in: that of a triangle.
 #[derive(Clone, Copy)]
 pub struct Plane<'a> {
-    pub mesh: &'a TriMesh,
+    pub soup: &'a Soup,
     pub points: &'a Points,
     /// A triangle in the plane.
     pub of: TriangleId,
@@ -35,34 +34,53 @@ pub struct Plane<'a> {
 const TINY: f64 = 1e-280;
 
 impl<'a> Plane<'a> {
-    pub fn new(mesh: &'a TriMesh, points: &'a Points, of: TriangleId) -> Self {
-        let (axis, orientation) = open_axis(&mesh.corners(of));
-        let most = mesh.bbox.iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
-        Self { mesh, points, of, axis, orientation, most }
+    pub fn new(soup: &'a Soup, points: &'a Points, of: TriangleId) -> Self {
+        let (axis, orientation) = soup.open_axis(of);
+        let most = soup.mesh.bbox.iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
+        Self { soup, points, of, axis, orientation, most }
     }
 
     #[inline(always)]
     pub fn place(&self, v: VertexId) -> [f64; 3] {
-        points::place(self.mesh, self.points, v)
+        points::place(self.soup, self.points, v)
     }
 
     #[inline(always)]
     pub fn origin(&self, v: VertexId) -> Origin {
-        points::origin(self.mesh, self.points, v)
+        points::origin(self.soup, self.points, v)
     }
 
     /// Whether a vertex is on an edge, or in the plane of a triangle, as its name says. (It may be although its name does not.)
     fn named(&self, origin: Origin, carrier: Carrier) -> bool {
-        let of_edge = |e: EdgeId, t: TriangleId| self.mesh.triangle_edges[t.at()].contains(&e);
-        match (carrier, origin) {
-            (Carrier::Plane(t), Origin::Mesh(v)) => self.mesh.triangles[t.at()].contains(&v),
-            (Carrier::Plane(t), Origin::EdgeTriangle(e, s)) => s == t || of_edge(e, t),
-            (Carrier::Plane(t), Origin::Edges(e, f)) => of_edge(e, t) || of_edge(f, t),
-            (Carrier::Plane(t), Origin::Triangles(p, q, r)) => t == p || t == q || t == r,
-            (Carrier::Edge(e), Origin::Mesh(v)) => self.mesh.edges[e.at()].contains(&v),
-            (Carrier::Edge(e), Origin::EdgeTriangle(f, _)) => e == f,
-            (Carrier::Edge(e), Origin::Edges(f, g)) => e == f || e == g,
-            _ => false,
+        let mesh = &*self.soup.mesh;
+        match carrier {
+            Carrier::Plane(t) => match self.soup.sheet(t) {
+                Some(p) => match origin {
+                    Origin::Edge(_, q) | Origin::TrianglesPlane(_, _, q) => p == q,
+                    Origin::Triangle(_, q, r) => p == q || p == r,
+                    Origin::Planes(q, r, s) => p == q || p == r || p == s,
+                    _ => false,
+                },
+                None => {
+                    let has = |e: EdgeId| mesh.triangle_edges[t.at()].contains(&e);
+                    match origin {
+                        Origin::Mesh(v) => mesh.triangles[t.at()].contains(&v),
+                        Origin::EdgeTriangle(e, s) => s == t || has(e),
+                        Origin::Edges(e, f) => has(e) || has(f),
+                        Origin::Triangles(p, q, r) => t == p || t == q || t == r,
+                        Origin::Edge(e, _) => has(e),
+                        Origin::Triangle(s, ..) => s == t,
+                        Origin::TrianglesPlane(p, q, _) => t == p || t == q,
+                        Origin::Planes(..) | Origin::Level(_) => false,
+                    }
+                }
+            },
+            Carrier::Edge(e) => match origin {
+                Origin::Mesh(v) => mesh.edges[e.at()].contains(&v),
+                Origin::EdgeTriangle(f, _) | Origin::Edge(f, _) => e == f,
+                Origin::Edges(f, g) => e == f || e == g,
+                _ => false,
+            },
         }
     }
 
@@ -75,15 +93,25 @@ impl<'a> Plane<'a> {
         }
         match carrier {
             Carrier::Edge(e) => {
-                let [a, b] = self.mesh.edges[e.at()];
+                let [a, b] = self.soup.mesh.edges[e.at()];
                 self.turn(a, b, v)
             }
-            Carrier::Plane(t) => self.side_of_triangle(t, v),
+            Carrier::Plane(t) => match self.soup.sheet(t) {
+                None => self.side_of_triangle(t, v),
+                Some(p) => {
+                    let plane = self.soup.planes()[p.at()];
+                    if let Some(sign) = quick_side(&plane, &self.place(v)) {
+                        count(Predicate::PointSide, Tier::Filter);
+                        return sign;
+                    }
+                    exact::support_side(&Support::Plane(plane), &points::point(self.soup, self.points, v))
+                }
+            },
         }
     }
 
     fn side_of_triangle(&self, t: TriangleId, v: VertexId) -> Sign {
-        let corners = self.mesh.corners(t);
+        let corners = self.soup.mesh.corners(t);
         let x = self.place(v);
         let minus = |p: &[f64; 3]| -> [f64; 3] { std::array::from_fn(|i| p[i] - corners[0][i]) };
         let (e, f, d) = (minus(&corners[1]), minus(&corners[2]), minus(&x));
@@ -98,7 +126,7 @@ impl<'a> Plane<'a> {
             count(Predicate::PointSide, Tier::Filter);
             return Sign::of(sum);
         }
-        exact::support_side(&Support::Triangle(corners), &points::point(self.mesh, self.points, v))
+        exact::support_side(&Support::Triangle(corners), &points::point(self.soup, self.points, v))
     }
 
     /// The turn a → b → c, seen along the axis.
@@ -112,7 +140,7 @@ impl<'a> Plane<'a> {
             return Sign::Zero;
         }
         let (u, v) = seen_along(self.axis);
-        let point = |v: VertexId| points::point(self.mesh, self.points, v);
+        let point = |v: VertexId| points::point(self.soup, self.points, v);
         exact::turn_projected(&point(a), &point(b), &point(c), u, v)
     }
 
@@ -138,7 +166,12 @@ impl<'a> Plane<'a> {
         // A triangle in this plane itself tells nothing: it may be any that is parallel.
         let other = |t: TriangleId| t != self.of && all(Carrier::Plane(t)) && !self.contains(t);
         let edge = |e: EdgeId| all(Carrier::Edge(e));
+        let sheet = |p: PlaneId| other(self.soup.sheet_of(p));
         match *first {
+            Origin::Edge(e, p) => edge(e) || sheet(p),
+            Origin::Triangle(t, p, q) => sheet(p) || sheet(q) || other(t),
+            Origin::Planes(p, q, r) => sheet(p) || sheet(q) || sheet(r),
+            Origin::TrianglesPlane(t, u, p) => sheet(p) || other(t) || other(u),
             Origin::EdgeTriangle(e, t) => edge(e) || other(t),
             Origin::Edges(e, f) => edge(e) || edge(f),
             Origin::Triangles(p, q, r) => other(p) || other(q) || other(r),
@@ -146,9 +179,28 @@ impl<'a> Plane<'a> {
         }
     }
 
-    /// Whether a triangle lies in this plane.
+    /// Whether a triangle or sheet lies in this plane.
     fn contains(&self, t: TriangleId) -> bool {
-        let [a, b, c] = self.mesh.corners(self.of);
-        self.mesh.corners(t).iter().all(|x| exact::orient3d(&a, &b, &c, x).is_zero())
+        let soup = self.soup;
+        let (corners, support) = match (soup.sheet(t), soup.sheet(self.of)) {
+            // Sheets that coincide are named by one of them.
+            (Some(p), Some(q)) => return p == q,
+            (None, _) => (soup.mesh.corners(t), soup.support(self.of)),
+            (Some(_), None) => (soup.mesh.corners(self.of), soup.support(t)),
+        };
+        match support {
+            Support::Triangle([a, b, c]) => corners.iter().all(|x| exact::orient3d(&a, &b, &c, x).is_zero()),
+            Support::Plane(p) => corners.iter().all(|x| exact::side(&p, x).is_zero()),
+        }
     }
+}
+
+/// The side of a plane of a point that rounds to x, if doubles tell. Each coordinate is off by half an ulp and each product and sum rounds once: within
+/// 6u of the sum of magnitudes; eight are used.
+#[inline(always)]
+pub fn quick_side(p: &exact::Plane, x: &[f64; 3]) -> Option<Sign> {
+    let terms = [p.n[0] * x[0], p.n[1] * x[1], p.n[2] * x[2], p.d];
+    let sum = terms[0] + terms[1] + terms[2] + terms[3];
+    let size = terms.iter().fold(0.0, |s, t| s + t.abs());
+    (sum.abs() > 8.0 * ROUNDOFF * size + TINY && size < f64::MAX).then(|| Sign::of(sum))
 }

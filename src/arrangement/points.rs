@@ -5,20 +5,18 @@
 //!
 //! Cost: n log n comparisons of doubles; a microsecond for each exact one.
 
-use super::data::Points;
+use super::data::{Points, Soup};
 use crate::base::VertexId;
 use crate::complex::Origin;
-use crate::complex::data::origin_point;
 use crate::exact;
-use crate::mesh::TriMesh;
 use rayon::prelude::*;
 use std::cmp::Ordering;
 
 /// Gives ids to points: soup vertices keep theirs, known points too, and of new ones that are equal the least origin stands for all.
 ///
 /// `origins`: sorted, each once. Returns the id of each.
-pub fn unify(mesh: &TriMesh, points: &mut Points, origins: &[Origin]) -> Vec<VertexId> {
-    let first = mesh.vertices.len();
+pub fn unify(soup: &Soup, points: &mut Points, origins: &[Origin]) -> Vec<VertexId> {
+    let first = soup.mesh.vertices.len();
     /// A place with its name: an id, or the number of a new origin.
     struct Entry {
         at: [f64; 3],
@@ -26,8 +24,8 @@ pub fn unify(mesh: &TriMesh, points: &mut Points, origins: &[Origin]) -> Vec<Ver
         new: u32,
     }
     let rounded = |origin: &Origin| match *origin {
-        Origin::Mesh(v) => mesh.vertices[v.at()],
-        _ => exact::round(&origin_point(mesh, &[], *origin)),
+        Origin::Mesh(v) => soup.mesh.vertices[v.at()],
+        _ => exact::round(&soup.point(*origin)),
     };
     let entry = |(i, origin): (usize, &Origin)| {
         let id = if let Origin::Mesh(v) = *origin { v } else { VertexId::NONE };
@@ -55,7 +53,7 @@ pub fn unify(mesh: &TriMesh, points: &mut Points, origins: &[Origin]) -> Vec<Ver
             if e.new == u32::MAX {
                 continue;
             }
-            let same = |j: &usize| equal(mesh, origin_of(&entries[*j], points), origin_of(e, points));
+            let same = |j: &usize| equal(soup, origin_of(&entries[*j], points), origin_of(e, points));
             let leader = (start..i).find(same).unwrap_or(i);
             match entries[leader].id {
                 id if id.is_some() => ids[e.new as usize] = id,
@@ -88,29 +86,29 @@ fn compare_places(a: &[f64; 3], b: &[f64; 3]) -> Ordering {
 }
 
 /// Two points with equal rounded coordinates.
-fn equal(mesh: &TriMesh, a: Origin, b: Origin) -> bool {
+fn equal(soup: &Soup, a: Origin, b: Origin) -> bool {
     if a == b {
         return true;
     }
     if let (Origin::Mesh(_), Origin::Mesh(_)) = (a, b) {
         return false;
     }
-    let (a, b) = (origin_point(mesh, &[], a), origin_point(mesh, &[], b));
+    let (a, b) = (soup.point(a), soup.point(b));
     (0..3).all(|axis| exact::compare_coordinate(&a, &b, axis) == Ordering::Equal)
 }
 
 /// Rounded coordinates of a vertex, constructed or not.
 #[inline(always)]
-pub fn place(mesh: &TriMesh, points: &Points, v: VertexId) -> [f64; 3] {
-    match v.at().checked_sub(mesh.vertices.len()) {
-        None => mesh.vertices[v.at()],
+pub fn place(soup: &Soup, points: &Points, v: VertexId) -> [f64; 3] {
+    match v.at().checked_sub(soup.mesh.vertices.len()) {
+        None => soup.mesh.vertices[v.at()],
         Some(i) => points.coords[i],
     }
 }
 
 #[inline(always)]
-pub fn origin(mesh: &TriMesh, points: &Points, v: VertexId) -> Origin {
-    match v.at().checked_sub(mesh.vertices.len()) {
+pub fn origin(soup: &Soup, points: &Points, v: VertexId) -> Origin {
+    match v.at().checked_sub(soup.mesh.vertices.len()) {
         None => Origin::Mesh(v),
         Some(i) => points.origins[i],
     }
@@ -118,39 +116,39 @@ pub fn origin(mesh: &TriMesh, points: &Points, v: VertexId) -> Origin {
 
 /// The exact point of a vertex.
 #[inline]
-pub fn point(mesh: &TriMesh, points: &Points, v: VertexId) -> exact::Point {
-    origin_point(mesh, &[], origin(mesh, points, v))
+pub fn point(soup: &Soup, points: &Points, v: VertexId) -> exact::Point {
+    soup.point(origin(soup, points, v))
 }
 
 /// Orders two vertices by a coordinate, exactly.
 #[inline]
-pub fn compare(mesh: &TriMesh, points: &Points, a: VertexId, b: VertexId, axis: usize) -> Ordering {
+pub fn compare(soup: &Soup, points: &Points, a: VertexId, b: VertexId, axis: usize) -> Ordering {
     if a == b {
         return Ordering::Equal;
     }
-    let (x, y) = (place(mesh, points, a)[axis], place(mesh, points, b)[axis]);
-    exact::compare_rounded(x, y, || point(mesh, points, a), || point(mesh, points, b), axis)
+    let (x, y) = (place(soup, points, a)[axis], place(soup, points, b)[axis]);
+    exact::compare_rounded(x, y, || point(soup, points, a), || point(soup, points, b), axis)
 }
 
 /// An axis in which two different vertices differ, the one with the largest difference if doubles can tell.
-pub fn open_axis(mesh: &TriMesh, points: &Points, a: VertexId, b: VertexId) -> usize {
-    let (x, y) = (place(mesh, points, a), place(mesh, points, b));
+pub fn open_axis(soup: &Soup, points: &Points, a: VertexId, b: VertexId) -> usize {
+    let (x, y) = (place(soup, points, a), place(soup, points, b));
     let size = |i: usize| (x[i] - y[i]).abs();
     let best = (1..3).fold(0, |best, i| if size(i) > size(best) { i } else { best });
     if size(best) > 0.0 {
         return best;
     }
-    (0..3).find(|&i| compare(mesh, points, a, b, i) != Ordering::Equal).unwrap_or(0)
+    (0..3).find(|&i| compare(soup, points, a, b, i) != Ordering::Equal).unwrap_or(0)
 }
 
 impl Points {
     /// As many coordinates as origins, none a soup vertex, all rounded, no two the same point.
-    pub fn check(&self, mesh: &TriMesh) -> Result<(), String> {
+    pub fn check(&self, soup: &Soup) -> Result<(), String> {
         if self.origins.len() != self.coords.len() || self.origins.iter().any(|o| matches!(o, Origin::Mesh(_))) {
             return Err("constructed points and their coordinates differ".into());
         }
         for (i, (origin, at)) in self.origins.iter().zip(&self.coords).enumerate() {
-            if exact::round(&origin_point(mesh, &[], *origin)).map(f64::to_bits) != at.map(f64::to_bits) {
+            if exact::round(&soup.point(*origin)).map(f64::to_bits) != at.map(f64::to_bits) {
                 return Err(format!("constructed point {i} is not rounded"));
             }
         }
@@ -158,7 +156,7 @@ impl Points {
         all.sort_unstable_by(|&a, &b| compare_places(&self.coords[a], &self.coords[b]));
         for same in all.chunk_by(|&a, &b| self.coords[a] == self.coords[b]) {
             for (k, &a) in same.iter().enumerate() {
-                if same[..k].iter().any(|&b| equal(mesh, self.origins[a], self.origins[b])) {
+                if same[..k].iter().any(|&b| equal(soup, self.origins[a], self.origins[b])) {
                     return Err(format!("constructed point {a} has two ids"));
                 }
             }

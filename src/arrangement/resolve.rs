@@ -12,7 +12,7 @@ use super::points;
 use super::triangulate::{NONE, Triangulation, Vertices, curve_order, triangulate};
 use crate::base::{Csr, Error, FaceId, Result, Run, TriangleId, VertexId};
 use crate::exact::{self, Point, Sign};
-use crate::mesh::projection::{seen_along, turn};
+use crate::mesh::projection::seen_along;
 use rayon::prelude::*;
 
 /// Clusters in one task at least.
@@ -45,12 +45,12 @@ pub fn resolve(soup: Soup, graphs: Graphs, clusters: &Clusters, pair_count: u64,
     let mut cut: Vec<TriangleId> = clusters.members.items.clone();
     cut.sort_unstable();
     let mut next = cut.iter().copied().peekable();
-    let total = mesh.triangles.len() - cut.len() + all.iter().map(|p| p.corners.len()).sum::<usize>();
+    let total = mesh.triangles.len().saturating_sub(cut.len()) + all.iter().map(|p| p.corners.len()).sum::<usize>();
     let mut faces = Vec::with_capacity(total);
     let mut support = Vec::with_capacity(total);
     for (t, corners) in mesh.triangles.iter().enumerate() {
         let t = TriangleId::of(t);
-        if next.next_if_eq(&t).is_none() {
+        if next.next_if_eq(&t).is_none() && !soup.is_passive(t) {
             faces.push(*corners);
             support.push(t);
         }
@@ -58,14 +58,9 @@ pub fn resolve(soup: Soup, graphs: Graphs, clusters: &Clusters, pair_count: u64,
     let whole = faces.len();
     let (mut shared, mut births) = (Vec::new(), Csr::default());
     for (parts, members) in all.iter().zip(clusters.members.rows()) {
-        let (axis, positive) = crate::mesh::projection::open_axis(&mesh.corners(members[0]));
-        let same: Vec<bool> = members
-            .iter()
-            .map(|m| {
-                let [a, b, c] = mesh.corners(*m);
-                *m == members[0] || turn(&a, &b, &c, axis) == positive
-            })
-            .collect();
+        let (axis, positive) = soup.open_axis(members[0]);
+        let like = |m: &TriangleId| *m == members[0] || soup.turn_along(*m, axis) == positive;
+        let same: Vec<bool> = members.iter().map(like).collect();
         let like_first = |t: &TriangleId| same[members.partition_point(|m| m < t)];
         for (corners, holders) in parts.corners.iter().zip(parts.births.rows()) {
             let [a, b, c] = *corners;
@@ -97,7 +92,7 @@ impl Local<'_> {
     fn point(&self, v: u32) -> Point {
         match (v as usize).checked_sub(self.vertices.len()) {
             Some(k) => Point::Vertex(self.frame[k]),
-            None => points::point(self.plane.mesh, self.plane.points, self.vertices[v as usize]),
+            None => points::point(self.plane.soup, self.plane.points, self.vertices[v as usize]),
         }
     }
 }
@@ -129,17 +124,19 @@ fn parts(
     lone: &[VertexId],
 ) -> Result<Parts> {
     let mesh = &*soup.mesh;
-    let corners = mesh.triangles[members[0].at()];
+    // Of a sheet: none.
+    let corners = mesh.triangles.get(members[0].at()).copied();
     let mut vertices: Vec<VertexId> = pieces.iter().flatten().chain(lone).copied().collect();
     vertices.sort_unstable();
     vertices.dedup();
-    if vertices.len() == 3 {
+    let last = members[members.len() - 1];
+    if let (Some(corners), 3, None) = (corners, vertices.len(), soup.sheet(last)) {
         // One triangle, or several on the same corners, that nothing cuts.
         return Ok(Parts { corners: vec![corners], births: Csr::from_pairs(1, members.iter().map(|m| (0, *m))) });
     }
     let number = |v: VertexId| vertices.partition_point(|w| *w < v) as u32;
     let local_pieces: Vec<[u32; 2]> = pieces.iter().map(|p| p.map(number)).collect();
-    let plane = Plane::new(mesh, &graphs.points, members[0]);
+    let plane = Plane::new(soup, &graphs.points, members[0]);
     let (u, v) = seen_along(plane.axis);
     // Near 1, so that squares are in range.
     let scale = power_near(1.0 / mesh.bbox.iter().flatten().fold(f64::MIN_POSITIVE, |m, x| m.max(x.abs())));
@@ -151,7 +148,7 @@ fn parts(
     let count = vertices.len() as u32;
     let made: Triangulation;
     let local;
-    if members.len() == 1 {
+    if let (Some(corners), 1) = (corners, members.len()) {
         let start = [corners.map(number)];
         local = Local { plane, vertices: vertices.clone(), places, frame: Vec::new() };
         let order = curve_order(&local, (0..count).filter(|v| !start[0].contains(v)));
@@ -174,7 +171,7 @@ fn parts(
     }
     debug_assert_eq!(made.check(&local), Ok(()));
     let all = |t: usize| made.corners[t].map(|v| vertices[v as usize]);
-    if members.len() == 1 {
+    if corners.is_some() && members.len() == 1 {
         let births = Csr::from_pairs(made.corners.len(), (0..made.corners.len()).map(|i| (i, members[0])));
         return Ok(Parts { corners: (0..made.corners.len()).map(all).collect(), births });
     }
@@ -235,10 +232,19 @@ fn flood(
     let mut border = vec![[0u32; 3]; made.corners.len()];
     let mut visited = vec![0u32; made.corners.len()];
     let (mut stack, mut row) = (Vec::new(), Vec::new());
+    let mut inside: Vec<bool> = Vec::new();
     for (round, &m) in members.iter().enumerate() {
         let round = round as u32 + 1;
-        let [a, b, c] = mesh.corners(m);
-        let same = turn(&a, &b, &c, axis) == orientation;
+        if soup.sheet(m).is_some() {
+            // The outline is where the box is: a triangle is in it with its corners, or not.
+            if inside.is_empty() {
+                inside = vertices.iter().map(|v| in_bounds(soup, graphs, *v)).collect();
+            }
+            let within = |c: &[u32; 3]| c.iter().all(|v| inside.get(*v as usize) == Some(&true));
+            held.extend(made.corners.iter().enumerate().filter(|(_, c)| within(c)).map(|(t, _)| (t, m)));
+            continue;
+        }
+        let same = soup.turn_along(m, axis) == orientation;
         let corners = mesh.triangles[m.at()];
         for (e, from) in mesh.triangle_edges[m.at()].into_iter().zip(corners) {
             let ends = mesh.edges[e.at()];
@@ -278,6 +284,17 @@ fn flood(
     Ok(Csr::from_pairs(made.corners.len(), held.iter().copied()))
 }
 
+/// Whether a vertex is in the closed box of half-spaces.
+fn in_bounds(soup: &Soup, graphs: &Graphs, v: VertexId) -> bool {
+    let x = points::place(soup, &graphs.points, v);
+    let order = |i: usize, corner: &[f64; 3]| {
+        let point = || points::point(soup, &graphs.points, v);
+        exact::compare_rounded(x[i], corner[i], point, || Point::Vertex(*corner), i)
+    };
+    let [lo, hi] = &soup.half_spaces.bounds;
+    (0..3).all(|i| order(i, lo).is_ge() && order(i, hi).is_le())
+}
+
 impl Resolved {
     /// All triangles that a face is a part of.
     pub fn births_of(&self, f: FaceId) -> impl Iterator<Item = Birth> + '_ {
@@ -289,7 +306,7 @@ impl Resolved {
 
     /// Faces have three corners and no two the same ones; corners are on the support; births rise.
     pub fn check(&self) -> std::result::Result<(), String> {
-        self.points.check(&self.soup.mesh)?;
+        self.points.check(&self.soup)?;
         self.births.check()?;
         if self.support.len() != self.faces.len() || self.shared.len() != self.births.len() {
             return Err("as many supports as faces".into());
@@ -304,7 +321,7 @@ impl Resolved {
             return Err("two faces on the same corners".into());
         }
         for f in self.whole..self.faces.len() {
-            let support = exact::Support::Triangle(self.soup.mesh.corners(self.support[f]));
+            let support = self.soup.support(self.support[f]);
             if self.faces[f].iter().any(|v| !exact::support_side(&support, &self.point(*v)).is_zero()) {
                 return Err(format!("a corner of face {f} is not on its support"));
             }

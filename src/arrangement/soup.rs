@@ -7,8 +7,10 @@
 //! Cost: linear but for the vertices whose positions may be equal, which are sorted.
 
 use super::data::{Operand, Soup};
+use super::supports::{BOX_TRIANGLES, HalfSpaces, box_corners};
 use crate::base::parallel::map_ranges;
-use crate::base::{Culprit, DefectKind, Error, OperandId, Result, Run, Status, TriangleId, VertexId};
+use crate::base::{Culprit, DefectKind, Error, Result, Run, Status, VertexId};
+use crate::exact::{self, Plane};
 use crate::mesh::build::{MAX_TRIANGLES, MAX_VERTICES, bounding_box};
 use crate::mesh::edges::edge_table;
 use crate::mesh::{TriMesh, validate};
@@ -70,7 +72,52 @@ pub fn soup(operands: &[Operand], run: &mut Run) -> Result<Soup> {
         edge_uses: table.edge_uses,
         ..TriMesh::default()
     };
-    Ok(Soup { mesh: Arc::new(mesh), first_triangle, source, dropped })
+    Ok(Soup { mesh: Arc::new(mesh), first_triangle, source, dropped, half_spaces: HalfSpaces::default() })
+}
+
+/// Joins the operands, and behind them half-spaces n·x + d < 0 within bounds (the lowest and the highest corner of a box; `None`: the box of all meshes,
+/// with as much room on each side as it is large).
+///
+/// Errors: as [`soup`]; `BadPlane` with every plane that is not finite or has a zero normal; `BadArgument` for bounds that are no box, or where there are
+/// neither bounds nor vertices.
+pub fn soup_with(operands: &[Operand], planes: &[Plane], bounds: Option<[[f64; 3]; 2]>, run: &mut Run) -> Result<Soup> {
+    if planes.is_empty() {
+        return soup(operands, run);
+    }
+    exact::planes::validate(planes)?;
+    let bounds = match bounds {
+        Some(bounds) => bounds.map(|x| x.map(|c| c + 0.0)),
+        None => room_around(operands)?,
+    };
+    if (0..3).any(|i| bounds[0][i] >= bounds[1][i] || bounds.iter().any(|x| !x[i].is_finite())) {
+        let message = format!("the bounds of half-spaces are no box: {:?} to {:?}", bounds[0], bounds[1]);
+        return Err(Error::new(Status::BadArgument, message));
+    }
+    let corners = box_corners(&bounds);
+    let mut all = operands.to_vec();
+    all.extend(planes.iter().map(|_| Operand { vertices: &corners, triangles: &BOX_TRIANGLES }));
+    let mut soup = soup(&all, run)?;
+    let stands = exact::planes::group(planes).representative;
+    soup.half_spaces = HalfSpaces { planes: planes.to_vec(), stands, bounds, meshes: operands.len() };
+    Ok(soup)
+}
+
+/// The box of all vertices, larger on each side by its largest extent.
+fn room_around(operands: &[Operand]) -> Result<[[f64; 3]; 2]> {
+    let (mut lo, mut hi) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+    for x in operands.iter().flat_map(|o| o.vertices).filter(|x| x.iter().all(|c| c.is_finite())) {
+        for i in 0..3 {
+            lo[i] = lo[i].min(x[i]);
+            hi[i] = hi[i].max(x[i]);
+        }
+    }
+    if lo[0] > hi[0] {
+        return Err(Error::new(Status::BadArgument, "half-spaces need bounds where meshes have no vertices"));
+    }
+    let extent = (0..3).fold(0.0f64, |m, i| m.max(hi[i] - lo[i])).min(f64::MAX);
+    let down = |x: f64| (x - extent).next_down().max(f64::MIN);
+    let up = |x: f64| (x + extent).next_up().min(f64::MAX);
+    Ok([lo.map(down), hi.map(up)])
 }
 
 fn offsets(lengths: impl Iterator<Item = usize>, most: usize, what: &str) -> Result<Vec<u32>> {
@@ -126,10 +173,6 @@ fn number_used(positions: Vec<[f64; 3]>, triangles: &mut [[VertexId; 3]]) -> (Ve
 impl Soup {
     pub fn operand_count(&self) -> usize {
         self.first_triangle.len() - 1
-    }
-
-    pub fn operand(&self, t: TriangleId) -> OperandId {
-        OperandId::of(self.first_triangle.partition_point(|&first| first <= t.0) - 1)
     }
 
     /// Sorted adjacency, distinct vertices that are used, triangles with three corners.

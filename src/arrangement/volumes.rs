@@ -10,8 +10,8 @@
 use super::{Arrangement, Extraction, Resolved};
 use crate::base::{FaceId, TriangleId, VertexId};
 use crate::complex::exact_values::{lowest_exponent, tree_sum, triangle_cone};
-use crate::exact::{self, Residue, residue};
-use crate::mesh::projection::{open_axis, seen_along};
+use crate::exact::{self, Residue, Support, residue};
+use crate::mesh::projection::seen_along;
 use rug::{Integer, Rational};
 
 /// One face in one sum.
@@ -64,16 +64,22 @@ fn cones(r: &Resolved, sums: usize, mut terms: Vec<Term>) -> Vec<Rational> {
 
 /// Six times the cone over what the edges (lower end, higher end, how often) go around in a triangle's plane.
 fn cone_in_plane(r: &Resolved, support: TriangleId, edges: &[(VertexId, VertexId, i64)]) -> Rational {
-    let t = r.soup.mesh.corners(support);
-    let (axis, _) = open_axis(&t);
+    let (axis, _) = r.soup.open_axis(support);
     let (u, v) = seen_along(axis);
-    let t = t.map(|p| p.map(|x| Rational::from_f64(x).unwrap_or_default()));
-    let side = |k: usize, i: usize| Rational::from(&t[k][i] - &t[0][i]);
-    let normal: [Rational; 3] = std::array::from_fn(|i| {
-        let (j, k) = seen_along(i);
-        side(1, j) * side(2, k) - side(1, k) * side(2, j)
-    });
-    let value = (0..3).fold(Rational::new(), |sum, i| sum + Rational::from(&normal[i] * &t[0][i]));
+    let of = |x: f64| Rational::from_f64(x).unwrap_or_default();
+    let (normal, value): ([Rational; 3], Rational) = match r.soup.support(support) {
+        Support::Plane(p) => (p.n.map(of), -of(p.d)),
+        Support::Triangle(t) => {
+            let t = t.map(|p| p.map(of));
+            let side = |k: usize, i: usize| Rational::from(&t[k][i] - &t[0][i]);
+            let normal: [Rational; 3] = std::array::from_fn(|i| {
+                let (j, k) = seen_along(i);
+                side(1, j) * side(2, k) - side(1, k) * side(2, j)
+            });
+            let value = (0..3).fold(Rational::new(), |sum, i| sum + Rational::from(&normal[i] * &t[0][i]));
+            (normal, value)
+        }
+    };
     if value.is_zero() {
         return value;
     }

@@ -6,8 +6,10 @@ use super::context::{c_string, lap_context, with_context};
 use super::guard::guard;
 use super::mesh::bad_options;
 use super::view::{address, handle, index, input, into_handle, put, read_options, write_options};
-use crate::arrangement::{Arrangement, ArrangementOptions, Operand, arrange};
+use crate::arrangement::supports::BOX;
+use crate::arrangement::{Arrangement, ArrangementOptions, Operand, arrange_with};
 use crate::base::{Error, Status};
+use crate::exact::Plane;
 use std::ffi::{CString, c_char};
 use std::sync::Arc;
 
@@ -37,7 +39,7 @@ pub struct lap_operand {
 /// there, its births, and runs like the first of them. Patch: faces joined across edges with two faces. Cell: a
 /// connected part of space without faces that divide; number 0 is the unbounded one. Where births cancel in every operand a face divides nothing: it has
 /// no patch and no cells. Triangles and vertices of all operands, where they are one number, count through the operands, one
-/// behind the other (lap_arrangement_operands).
+/// behind the other (lap_arrangement_operands). Half-spaces may be operands too (lap_arrangement_new_half_spaces).
 ///
 /// Immutable: a const handle may be used from many threads at once; what is computed on demand is computed once.
 pub struct lap_arrangement {
@@ -99,6 +101,50 @@ pub unsafe extern "C" fn lap_arrangement_new(
     options: *const lap_arrangement_options,
     arrangement: *mut *mut lap_arrangement,
 ) -> i32 {
+    let nothing = std::ptr::null();
+    unsafe { make(context, [n_operands, 0], operands, [nothing; 2], options, arrangement) }
+}
+
+/// Finds the cells into which operands and half-spaces divide space. Half-space i is operand n_operands + i, in expressions as well.
+///
+/// Inputs (borrowed for the call): n_half_spaces, planes: 4 × n_half_spaces numbers a, b, c, d, each taken as the exact number that it is: the half-space
+/// is where a x + b y + c z + d < 0, so (a, b, c) points out of it. bounds: six numbers, the lowest and the highest corner of a box, or NULL for the box
+/// of all vertices of operands with as much room on each side as it is large. A half-space is its part within that box; farther out its winding
+/// number is 0. So what is chosen by half-spaces alone ends at the box, and what is inside a mesh that is in the box is not touched by it. Others
+/// as for lap_arrangement_new.
+///
+/// Planes may have any position: through vertices and edges, on triangles, coincident or opposite, three through a line, through the box's corners and on
+/// its sides, beside everything. As births a half-space has thirteen triangles: 0 to 11 are parts of the sides of the box, 12 is its plane. Where
+/// vertices and triangles count through the operands it counts for eight vertices (the box's corners) and thirteen triangles. In the complex of the
+/// arrangement faces on planes alone have those as supports (LAP_SUPPORT_PLANE), with the index of the half-space (of coincident planes the lowest).
+///
+/// Errors: as lap_arrangement_new; LAP_ERR_BAD_PLANE with all planes that are not finite (LAP_DEFECT_NON_FINITE_PLANE) or have no normal
+/// (LAP_DEFECT_ZERO_NORMAL); LAP_ERR_BAD_ARGUMENT for bounds that are no box (finite, the lowest corner lower in every coordinate), or NULL where operands have no
+/// vertices. Cost: as there, for each half-space a look at every vertex and triangle, and in each plane about the square of the number of planes.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn lap_arrangement_new_half_spaces(
+    context: *mut lap_context,
+    n_operands: i64,
+    operands: *const lap_operand,
+    n_half_spaces: i64,
+    planes: *const f64,
+    bounds: *const f64,
+    options: *const lap_arrangement_options,
+    arrangement: *mut *mut lap_arrangement,
+) -> i32 {
+    unsafe { make(context, [n_operands, n_half_spaces], operands, [planes, bounds], options, arrangement) }
+}
+
+/// # Safety
+/// As the functions above say: operands and half-spaces as many as counted, bounds of six numbers or null.
+unsafe fn make(
+    context: *mut lap_context,
+    [n_operands, n_half_spaces]: [i64; 2],
+    operands: *const lap_operand,
+    [planes, bounds]: [*const f64; 2],
+    options: *const lap_arrangement_options,
+    arrangement: *mut *mut lap_arrangement,
+) -> i32 {
     with_context(context, |state, host| {
         if arrangement.is_null() {
             return Err(Error::new(Status::NullPointer, "arrangement is NULL"));
@@ -106,6 +152,10 @@ pub unsafe extern "C" fn lap_arrangement_new(
         unsafe { put(arrangement, std::ptr::null_mut()) };
         let given = unsafe { input(operands, n_operands) }
             .map_err(|s| Error::new(s, format!("operands: NULL, or a bad count: {n_operands}")))?;
+        let planes: &[[f64; 4]] = unsafe { input(planes.cast(), n_half_spaces) }
+            .map_err(|s| Error::new(s, format!("planes: NULL, or a bad count: {n_half_spaces}")))?;
+        let planes: Vec<Plane> = planes.iter().map(|&[a, b, c, d]| Plane { n: [a, b, c], d }).collect();
+        let bounds: Option<[[f64; 3]; 2]> = unsafe { bounds.cast::<[[f64; 3]; 2]>().as_ref() }.copied();
         unsafe { read_options(options, DEFAULTS) }.map_err(bad_options)?;
         let mut operands = Vec::with_capacity(given.len());
         let (mut first_vertex, mut first_triangle) = (vec![0], vec![0]);
@@ -120,9 +170,13 @@ pub unsafe extern "C" fn lap_arrangement_new(
             first_vertex.push(first_vertex[i] + o.n_vertices);
             first_triangle.push(first_triangle[i] + o.n_triangles);
         }
+        for i in given.len()..given.len() + planes.len() {
+            first_vertex.push(first_vertex[i] + 8);
+            first_triangle.push(first_triangle[i] + BOX as i64 + 1);
+        }
         let threads = state.threads();
         let (data, stages) = state.run(host, |run| {
-            let mut data = arrange(&operands, &ArrangementOptions {}, run)?;
+            let mut data = arrange_with(&operands, &planes, bounds, &ArrangementOptions {}, run)?;
             let stages = std::mem::take(&mut data.stages);
             // Half-faces are numbered by twice the face.
             let longest = [data.vertex_count(), 2 * data.face_count(), data.winding.rows.items.len()];

@@ -5,7 +5,7 @@ use super::context::{State, lap_context, with_context};
 use super::guard::Host;
 use super::surface::lap_surface;
 use super::view::{handle, input, into_handle, put};
-use crate::arrangement::{Selection, choose, extract};
+use crate::arrangement::{Selection, choose};
 use crate::base::{CellId, Error, Status};
 use std::ffi::{CStr, c_char, c_void};
 
@@ -171,8 +171,7 @@ unsafe fn finish(
     surface: *mut *mut lap_surface,
 ) -> Result<(), Error> {
     let threads = state.threads();
-    let made =
-        state.run(host, |_| lap_surface::of_cells(&arrangement.data, extract(&arrangement.data, chosen)?, threads))?;
+    let made = state.run(host, |_| lap_surface::of_cells(&arrangement.data, chosen, threads))?;
     unsafe { put(surface, into_handle(made)) };
     Ok(())
 }

@@ -1,11 +1,12 @@
 //! The noun `lap_arrangement`, second part: vertices, faces, patches and cells, as borrowed views.
 
 use super::arrangement::{lap_arrangement, null_arrangement};
-use super::complex::number_origin;
+use super::complex::{lap_complex, number_origin};
 use super::context::{c_string, lap_context, with_context};
 use super::derived::{keep, on_demand};
 use super::guard::guard;
 use super::view::{address, handle, index, put};
+use crate::arrangement::solids::{every_cell, solids};
 use crate::arrangement::volumes::cell_volumes;
 use crate::arrangement::{Arrangement, Multiplicity};
 use crate::base::{CellId, Csr, Error, FaceId, OperandId, Status, TriangleId, VertexId};
@@ -24,6 +25,14 @@ pub struct Views {
     multiplicities: OnceLock<(Vec<OperandId>, Vec<i32>)>,
     windings: OnceLock<(Vec<OperandId>, Vec<i32>)>,
     volumes: OnceLock<(Vec<Rational>, Vec<f64>)>,
+    complex: OnceLock<Solid>,
+}
+
+/// The bounded cells as a complex, and where its vertices and faces come from.
+struct Solid {
+    complex: lap_complex,
+    vertices: Vec<VertexId>,
+    faces: Csr<FaceId>,
 }
 
 /// Of all faces. Empty offsets: too many for C's indices.
@@ -41,7 +50,7 @@ fn births(a: &Arrangement) -> Births {
     for f in (0..a.face_count()).map(FaceId::of) {
         for b in resolved.births_of(f) {
             all.operands.push(soup.operand(b.triangle));
-            all.triangles.push(soup.source[b.triangle.at()]);
+            all.triangles.push(soup.place(b.triangle));
             all.reversed.push(!b.same);
         }
         all.offsets.push(all.operands.len() as u32);
@@ -82,7 +91,8 @@ pub unsafe extern "C" fn lap_arrangement_vertices(
     })
 }
 
-/// What each vertex is, symbolically: LAP_VERTEX_MESH, or LAP_VERTEX_TRIANGLES.
+/// What each vertex is, symbolically: LAP_VERTEX_MESH, or LAP_VERTEX_TRIANGLES; with half-spaces any but LAP_VERTEX_LEVEL, planes by the index of the
+/// half-space (of coincident ones the lowest).
 ///
 /// Outputs (each may be NULL; borrowed until the arrangement is freed): count; kinds: count numbers LAP_VERTEX_*; ids: 3 × count, as
 /// LAP_VERTEX_* says, vertices and triangles counting through all operands (of equal vertices the first), -1 where unused.
@@ -325,6 +335,75 @@ pub unsafe extern "C" fn lap_arrangement_cell_volume_exact(
         let cell = index(cell, arrangement.data.cell_count()).map_err(none)?;
         let exact = &arrangement.volumes().map_err(|s| Error::new(s, "no threads to be had"))?.0;
         unsafe { put(volume, keep(state, &exact[cell].to_string())) };
+        Ok(())
+    })
+}
+
+/// The bounded cells as a complex on which all functions for lap_complex work but lap_complex_face_keys (LAP_ERR_BAD_ARGUMENT). Its mesh is that of all operands:
+/// vertices and triangles count through them.
+///
+/// Cell c is cell c + 1 of the arrangement, and so has the winding numbers that lap_arrangement_windings gives for that. Faces are those of the
+/// arrangement that divide, those parts of one triangle with the same births joined that only the triangulation separates: with holes, by the
+/// lowest part. A face lies on the first triangle that it is a part of (LAP_SUPPORT_TRIANGLE); there may be a cell on either of its sides, or on both.
+/// Vertices are those of the arrangement that such faces have, rising. lap_arrangement_complex_places tells which.
+///
+/// complex: borrowed until the arrangement is freed; do not free it.
+///
+/// Errors: LAP_ERR_TOO_LARGE, LAP_ERR_NULL_POINTER, LAP_ERR_CANCELLED, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: at the first call linear in
+/// the faces, with a sort of all edges, then none. Memory: some 200 bytes a face.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn lap_arrangement_complex(
+    context: *mut lap_context,
+    arrangement: *const lap_arrangement,
+    complex: *mut *const lap_complex,
+) -> i32 {
+    with_context(context, |state, host| {
+        if complex.is_null() {
+            return Err(Error::new(Status::NullPointer, "complex is NULL"));
+        }
+        unsafe { put(complex, std::ptr::null()) };
+        let arrangement = unsafe { handle(arrangement) }.map_err(null_arrangement)?;
+        let slot = &arrangement.views.complex;
+        if slot.get().is_none() {
+            let a = &arrangement.data;
+            let made = state.run(host, |run| solids(a, &every_cell(a), run))?;
+            let numbers = a.resolved.soup.given();
+            let complex = lap_complex::of_arrangement(made.complex, numbers, arrangement.threads)
+                .map_err(|status| Error::new(status, "the complex has more elements than 32-bit indices can number"))?;
+            slot.get_or_init(|| Solid { complex, vertices: made.vertices, faces: made.faces });
+        }
+        if let Some(made) = slot.get() {
+            unsafe { put(complex, std::ptr::from_ref(&made.complex)) };
+        }
+        Ok(())
+    })
+}
+
+/// Where the vertices and faces of the complex of an arrangement come from. Only after lap_arrangement_complex.
+///
+/// Outputs (each may be NULL; borrowed until the arrangement is freed): n_vertices: of the complex; vertices: for each that of the
+/// arrangement; n_faces: of the complex; offsets: n_faces + 1; faces: face f of the complex consists of the faces
+/// faces[offsets[f]] up to, not including, faces[offsets[f + 1]] of the arrangement.
+///
+/// Errors: LAP_ERR_NULL_POINTER if arrangement is NULL, LAP_ERR_BAD_ARGUMENT if there is no complex yet. Threads: any. Cost: none.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn lap_arrangement_complex_places(
+    arrangement: *const lap_arrangement,
+    n_vertices: *mut i64,
+    vertices: *mut *const i32,
+    n_faces: *mut i64,
+    offsets: *mut *const i32,
+    faces: *mut *const i32,
+) -> i32 {
+    guard(|_| {
+        let made = unsafe { handle(arrangement) }?.views.complex.get().ok_or(Status::BadArgument)?;
+        unsafe {
+            put(n_vertices, made.vertices.len() as i64);
+            put(vertices, address(&made.vertices));
+            put(n_faces, made.faces.len() as i64);
+            put(offsets, address(&made.faces.offsets));
+            put(faces, address(&made.faces.items));
+        }
         Ok(())
     })
 }

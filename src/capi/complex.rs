@@ -21,6 +21,8 @@ pub const LAP_VERTEX_PLANES: i32 = 3;
 pub const LAP_VERTEX_TRIANGLES: i32 = 4;
 /// A point of a network's domain where functions vanish (materials are equal). ids: the network's vertex, -1, -1
 pub const LAP_VERTEX_LEVEL: i32 = 5;
+/// Where two triangles of an arrangement and the plane of a half-space meet. ids: triangle, triangle, plane
+pub const LAP_VERTEX_TRIANGLES_PLANE: i32 = 6;
 
 /// A face that lies on a triangle of the input mesh.
 pub const LAP_SUPPORT_TRIANGLE: i32 = 0;
@@ -44,6 +46,8 @@ pub struct lap_complex {
     pub keyed: Keyed,
     /// Some of a solid's cells only: faces on planes may have one cell.
     pub part: bool,
+    /// What the caller calls the triangles of the mesh; empty: positions.
+    numbers: Vec<u32>,
     origins: OnceLock<(Vec<i32>, Vec<[i32; 3]>)>,
     supports: OnceLock<(Vec<i32>, Vec<i32>)>,
 }
@@ -69,9 +73,22 @@ impl lap_complex {
             derived: Derived::default(),
             keyed: Keyed::default(),
             part: false,
+            numbers: Vec::new(),
             origins: OnceLock::new(),
             supports: OnceLock::new(),
         })
+    }
+
+    /// The same of an arrangement: `numbers` is what the caller calls the triangles.
+    pub fn of_arrangement(data: Complex, numbers: Vec<u32>, threads: usize) -> Result<Self, Status> {
+        let mut complex = Self::new(data, threads)?;
+        complex.keyed.triangles = Some(numbers.iter().map(|&n| n.into()).collect());
+        complex.numbers = numbers;
+        Ok(complex)
+    }
+
+    fn triangle(&self, t: TriangleId) -> i32 {
+        self.numbers.get(t.at()).map_or(t.0, |n| *n) as i32
     }
 }
 
@@ -146,7 +163,7 @@ pub unsafe extern "C" fn lap_complex_vertex_origins(
 ) -> i32 {
     guard(|_| {
         let complex = unsafe { handle(complex) }?;
-        let (of_kind, of_ids) = complex.origins.get_or_init(|| origins(&complex.data));
+        let (of_kind, of_ids) = complex.origins.get_or_init(|| origins(complex));
         unsafe {
             put(count, of_kind.len() as i64);
             put(kinds, address(of_kind));
@@ -156,9 +173,10 @@ pub unsafe extern "C" fn lap_complex_vertex_origins(
     })
 }
 
-fn origins(c: &Complex) -> (Vec<i32>, Vec<[i32; 3]>) {
+fn origins(complex: &lap_complex) -> (Vec<i32>, Vec<[i32; 3]>) {
+    let c = &complex.data;
     let level = |i: u32| c.levels.vertices[i as usize].0 as i32;
-    c.origins.iter().map(|origin| number_origin(&c.mesh, |t| t.0 as i32, level, origin)).unzip()
+    c.origins.iter().map(|origin| number_origin(&c.mesh, |t| complex.triangle(t), level, origin)).unzip()
 }
 
 /// An origin as numbers for C: LAP_VERTEX_*, and ids. `triangle` numbers the triangles of the mesh for the caller, `level` the
@@ -183,6 +201,7 @@ pub fn number_origin(
         Origin::EdgeTriangle(e, t) => (LAP_VERTEX_TRIANGLES, [first(e), triangle(t), -1]),
         Origin::Edges(e, f) => (LAP_VERTEX_TRIANGLES, [first(e), first(f), -1]),
         Origin::Triangles(t, u, v) => (LAP_VERTEX_TRIANGLES, [t, u, v].map(triangle)),
+        Origin::TrianglesPlane(t, u, p) => (LAP_VERTEX_TRIANGLES_PLANE, [triangle(t), triangle(u), p.0 as i32]),
         Origin::Level(i) => (LAP_VERTEX_LEVEL, [level(i), -1, -1]),
     }
 }
@@ -286,7 +305,7 @@ pub unsafe extern "C" fn lap_complex_face_supports(
         let complex = unsafe { handle(complex) }?;
         let (of_kind, of_id) = complex.supports.get_or_init(|| {
             let number = |support: &SupportId| match *support {
-                SupportId::Triangle(t) => (LAP_SUPPORT_TRIANGLE, t.0 as i32),
+                SupportId::Triangle(t) => (LAP_SUPPORT_TRIANGLE, complex.triangle(t)),
                 SupportId::Plane(p) => (LAP_SUPPORT_PLANE, p.0 as i32),
                 SupportId::Level(p) => (LAP_SUPPORT_LEVEL, p.0 as i32),
             };
@@ -306,7 +325,8 @@ pub unsafe extern "C" fn lap_complex_face_supports(
 /// The cells on the two sides of each face.
 ///
 /// Outputs (each may be NULL; borrowed as the complex): count: the number of faces; cells: 2 × count, the owner (behind
-/// the face, on the side that its normal points away from), and the neighbour (before it), -1 outside the solid.
+/// the face, on the side that its normal points away from), and the neighbour (before it), -1 outside the solid (in the complex of an
+/// arrangement that may be either).
 ///
 /// Errors: LAP_ERR_NULL_POINTER if complex is NULL. Threads: any. Cost: none.
 #[unsafe(no_mangle)]
@@ -354,7 +374,7 @@ pub unsafe extern "C" fn lap_complex_cells(
 }
 
 /// The component of the input mesh (0 up to lap_mesh_counts' components) that each cell belongs to: that of the surface
-/// which encloses it.
+/// which encloses it. In the complex of an arrangement cells that are joined across faces have one number, from 0.
 ///
 /// Outputs (each may be NULL; borrowed as the complex): count: the number of cells; components: count.
 ///
@@ -379,8 +399,9 @@ pub unsafe extern "C" fn lap_complex_cell_components(
 ///
 /// cell: from 0; plane: index in the caller's array (any of coincident planes).
 ///
-/// Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BAD_ARGUMENT for a cell or plane that is not there. Threads: any. Cost: one
-/// exact sign, and a walk over those vertices of the cell that lie on the plane.
+/// Errors: LAP_ERR_NULL_POINTER, LAP_ERR_BAD_ARGUMENT for a cell or plane that is not there, or for the complex of an arrangement (planes cut only what is within
+/// the bounds of half-spaces, and winding numbers tell where cells are). Threads: any. Cost: one exact sign, and a walk over those vertices of
+/// the cell that lie on the plane.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn lap_complex_cell_side(
     complex: *const lap_complex,
@@ -392,6 +413,9 @@ pub unsafe extern "C" fn lap_complex_cell_side(
         let c = &unsafe { handle(complex) }?.data;
         if side.is_null() {
             return Err(Status::NullPointer);
+        }
+        if c.two_sided {
+            return Err(Status::BadArgument);
         }
         let cell = CellId::of(index(cell, c.cell_count())?);
         let plane = PlaneId::of(index(plane, c.planes.len())?);

@@ -46,7 +46,11 @@ fn make(c: &Complex, keyed: &Keyed) -> Result<Keys, Status> {
         plane_map: keyed.planes.as_ref().map(|p| &p.1[..]),
     };
     let names = names(&c.mesh, &c.planes, &ids).map_err(|error| error.status)?;
-    let faces = face_keys(c, &names).map_err(|error| error.status);
+    // Faces of an arrangement have no keys: theirs would take all triangles through each vertex.
+    let faces = match c.two_sided {
+        true => Err(Status::BadArgument),
+        false => face_keys(c, &names).map_err(|error| error.status),
+    };
     Ok(Keys { vertices: vertex_keys(c, &names), faces })
 }
 
@@ -113,7 +117,8 @@ pub unsafe extern "C" fn lap_cut_set_plane_ids(
 /// The keys of the vertices: 128 bits each, made from global ids of triangles and planes alone (lap_mesh_set_triangle_ids,
 /// lap_cut_set_plane_ids). No two vertices have the same key, and no vertex has that of a face. Two complexes cut from parts of
 /// the same mesh by some of the same planes give a vertex that they share the same key, if both know all triangles that
-/// contain it: a block that is given every triangle which meets its closed box, and the planes that bound it, does.
+/// contain it: a block that is given every triangle which meets its closed box, and the planes that bound it, does. (Arrangements promise less: a
+/// point where more triangles meet than are needed to name it goes by those among which it was found first.)
 ///
 /// Outputs (each may be NULL; borrowed as the complex): count; keys: 2 × count, the first number of a pair never negative.
 /// What the numbers are: the 7 high bits of the first are the kind of the point, then follow three numbers of 40 bits, as for
@@ -144,7 +149,7 @@ pub unsafe extern "C" fn lap_complex_vertex_keys(
 ///
 /// Outputs (each may be NULL; borrowed as the complex): count; keys: 2 × count, the first number of a pair never negative.
 ///
-/// Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_BAD_ARGUMENT for that of a network, LAP_ERR_INCONSISTENT for input that intersects itself,
+/// Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_BAD_ARGUMENT for that of a network or an arrangement, LAP_ERR_INCONSISTENT for input that intersects itself,
 /// LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: linear at the first call, then none.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn lap_complex_face_keys(

@@ -1,10 +1,12 @@
 //! The noun `lap_surface`: the boundary of a solid that is a union of a network's regions or of an arrangement's cells.
 
+use super::complex::lap_complex;
 use super::context::{lap_context, with_context};
 use super::derived::{keep, on_demand};
 use super::guard::guard;
 use super::view::{address, handle, put};
-use crate::arrangement::{Arrangement, Extraction, volumes};
+use crate::arrangement::solids::{joined_cells, solids};
+use crate::arrangement::{Arrangement, Extraction, extract, volumes};
 use crate::base::{Error, OperandId, Status};
 use crate::complex::surface_euler;
 use crate::exact::round_rational;
@@ -41,6 +43,9 @@ struct Solid {
     triangles: Vec<u32>,
     /// Against the faces of the arrangement.
     turned: Vec<bool>,
+    /// The cells that are in it.
+    inside: Vec<bool>,
+    complex: OnceLock<lap_complex>,
 }
 
 const _: () = {
@@ -56,15 +61,17 @@ impl lap_surface {
         Ok(Self::new(Made::Regions { boundary, xyz }, threads))
     }
 
-    pub fn of_cells(arrangement: &Arc<Arrangement>, mut extraction: Extraction, threads: usize) -> Result<Self, Error> {
+    pub fn of_cells(arrangement: &Arc<Arrangement>, inside: &[bool], threads: usize) -> Result<Self, Error> {
+        let mut extraction = extract(arrangement, inside)?;
         counted(3 * extraction.triangles.len())?;
         let (operands, triangles) = std::mem::take(&mut extraction.births).into_iter().unzip();
         let faces = &arrangement.resolved.faces;
         // A triangle that runs against its face begins at the same corner.
         let turned = |(t, f): (&[u32; 3], &crate::base::FaceId)| extraction.vertices[t[1] as usize] != faces[f.at()][1];
         let turned = extraction.triangles.iter().zip(&extraction.faces).map(turned).collect();
-        let arrangement = arrangement.clone();
-        Ok(Self::new(Made::Cells(Box::new(Solid { arrangement, extraction, operands, triangles, turned })), threads))
+        let (arrangement, inside) = (arrangement.clone(), inside.to_vec());
+        let solid = Solid { arrangement, extraction, operands, triangles, turned, inside, complex: OnceLock::new() };
+        Ok(Self::new(Made::Cells(Box::new(solid)), threads))
     }
 
     fn new(made: Made, threads: usize) -> Self {
@@ -284,6 +291,42 @@ pub unsafe extern "C" fn lap_surface_volume_exact(
             other => Error::new(other, "no threads to be had"),
         })?;
         unsafe { put(volume, keep(state, &exact.to_string())) };
+        Ok(())
+    })
+}
+
+/// The solid that an arrangement's surface bounds as a complex, as lap_arrangement_complex: a cell for each part that is connected across faces, of
+/// which the cells of the arrangement that were chosen are joined.
+///
+/// complex: borrowed until the surface is freed; do not free it.
+///
+/// Errors: LAP_ERR_BAD_ARGUMENT for the surface of a network; LAP_ERR_TOO_LARGE, LAP_ERR_NULL_POINTER, LAP_ERR_CANCELLED, LAP_ERR_OUT_OF_MEMORY,
+/// LAP_ERR_BUSY. Cost: as there.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn lap_surface_complex(
+    context: *mut lap_context,
+    surface: *const lap_surface,
+    complex: *mut *const lap_complex,
+) -> i32 {
+    with_context(context, |state, host| {
+        if complex.is_null() {
+            return Err(Error::new(Status::NullPointer, "complex is NULL"));
+        }
+        unsafe { put(complex, std::ptr::null()) };
+        let surface = unsafe { handle(surface) }.map_err(|s| Error::new(s, "surface is NULL"))?;
+        let solid = surface
+            .solid()
+            .map_err(|s| Error::new(s, "the surface is that of a network: lap_network_complex has its regions"))?;
+        if solid.complex.get().is_none() {
+            let a = &solid.arrangement;
+            let made = state.run(host, |run| solids(a, &joined_cells(a, &solid.inside), run))?;
+            let complex = lap_complex::of_arrangement(made.complex, a.resolved.soup.given(), surface.threads)
+                .map_err(|status| Error::new(status, "the complex has more elements than 32-bit indices can number"))?;
+            solid.complex.get_or_init(|| complex);
+        }
+        if let Some(made) = solid.complex.get() {
+            unsafe { put(complex, std::ptr::from_ref(made)) };
+        }
         Ok(())
     })
 }

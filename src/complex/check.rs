@@ -24,6 +24,9 @@ fn ensure(holds: bool, message: impl FnOnce() -> String) -> Check {
 
 /// All structural invariants. Cost: linear, and the sorts that find duplicates.
 pub fn check(c: &Complex) -> Check {
+    if c.two_sided {
+        return check_part(c);
+    }
     for (f, cells) in c.face_cells.iter().enumerate() {
         ensure(cells[0].is_some(), || format!("face {f}: no owner"))?;
         let within = matches!(c.face_support.get(f), Some(SupportId::Plane(_) | SupportId::Level(_)));
@@ -78,9 +81,8 @@ fn arrays(c: &Complex) -> Check {
     ensure(c.vertex_planes.items.iter().all(|p| p.at() < c.planes.len()), || "a vertex's plane out of range".into())?;
     ensure(c.face_cells.iter().flatten().all(|k| k.is_none() || k.at() < nc), || "a face's cell out of range".into())?;
     ensure(c.shell_faces.items.iter().all(|h| h.face().at() < nf), || "a shell's face out of range".into())?;
-    ensure(c.cell_component.iter().all(|k| k.at() < c.mesh.component_count), || {
-        "a cell's component out of range".into()
-    })?;
+    let components = if c.two_sided { nc } else { c.mesh.component_count };
+    ensure(c.cell_component.iter().all(|k| k.at() < components), || "a cell's component out of range".into())?;
     let known = |s: &SupportId| match s {
         SupportId::Triangle(t) => t.at() < c.mesh.triangles.len(),
         SupportId::Plane(p) => p.at() < c.planes.len(),
@@ -104,6 +106,7 @@ fn vertices(c: &Complex) -> Check {
             Origin::EdgeTriangle(e, t) => e.at() < m.edges.len() && t.at() < m.triangles.len(),
             Origin::Edges(e, f) => e < f && f.at() < m.edges.len(),
             Origin::Triangles(t, u, v) => t < u && u < v && v.at() < m.triangles.len(),
+            Origin::TrianglesPlane(t, u, p) => t < u && u.at() < m.triangles.len() && on(p),
             Origin::Level(i) => c.levels.points.get(i as usize).is_some_and(|zero| zero.dim <= 3),
         };
         ensure(good, || format!("vertex {v}: its origin {:?} does not fit", c.origins[v]))?;
@@ -151,7 +154,7 @@ fn loops(c: &Complex) -> Check {
     unused(&vertex_used, "vertex")
 }
 
-/// Each face has an owner; a face on a triangle has no neighbour; only one on a level may have a cell on both sides (it then
+/// Each face has an owner; a face on a triangle has no neighbour unless faces are two-sided; only one on a level may have a cell on both sides (it then
 /// ends inside the cell); the plane of a face on a plane is that plane; its tag is its triangle's.
 fn faces_and_cells(c: &Complex) -> Check {
     for f in 0..c.face_count() {
@@ -161,7 +164,7 @@ fn faces_and_cells(c: &Complex) -> Check {
         ensure(owner != neighbour || level, || format!("face {f}: the same cell on both sides"))?;
         let tag = match c.face_support[f] {
             SupportId::Triangle(t) => {
-                ensure(neighbour.is_none(), || format!("face {f}: on a triangle, with two cells"))?;
+                ensure(neighbour.is_none() || c.two_sided, || format!("face {f}: on a triangle, with two cells"))?;
                 if c.mesh.tags.is_empty() { 0 } else { c.mesh.tags[t.at()] }
             }
             SupportId::Plane(p) => {
@@ -244,6 +247,7 @@ fn on_triangle(c: &Complex, o: Origin, t: TriangleId) -> bool {
         Origin::EdgeTriangle(e, s) => s == t || m.triangle_edges[t.at()].contains(&e),
         Origin::Edges(e, f) => m.triangle_edges[t.at()].iter().any(|&k| k == e || k == f),
         Origin::Triangles(a, b, d) => a == t || b == t || d == t,
+        Origin::TrianglesPlane(a, b, _) => a == t || b == t,
         Origin::Level(i) => {
             let (zero, corners) = (&c.levels.points[i as usize], m.corners(t));
             zero.corners[..=zero.dim as usize].iter().all(|x| corners.contains(x))
@@ -251,7 +255,7 @@ fn on_triangle(c: &Complex, o: Origin, t: TriangleId) -> bool {
     }
 }
 
-/// Every vertex of a face lies on the face's support by its incidences, and on its plane as well.
+/// Every vertex of a face lies on the face's support by its incidences (two-sided: `check_exact` asks), and on its plane as well.
 fn supports(c: &Complex) -> Check {
     for f in (0..c.face_count()).map(FaceId::of) {
         for k in c.face_corners(f) {
@@ -261,7 +265,7 @@ fn supports(c: &Complex) -> Check {
             ensure(plane.is_none() || on(plane), || {
                 format!("face {}: vertex {} is not on plane {}", f.0, v.0, plane.0)
             })?;
-            if let SupportId::Triangle(t) = c.face_support[f.at()] {
+            if let (SupportId::Triangle(t), false) = (c.face_support[f.at()], c.two_sided) {
                 ensure(on_triangle(c, c.origins[v.at()], t), || {
                     format!("face {}: vertex {} is not on triangle {}", f.0, v.0, t.0)
                 })?;
@@ -360,6 +364,9 @@ pub fn check_volumes(c: &Complex) -> Check {
         }
         ensure(area.iter().all(|x| x.is_zero()), || format!("shell {s}: its area vectors do not add up to zero"))?;
     }
+    if c.two_sided {
+        return Ok(());
+    }
     let mut solid = Residue::ZERO;
     for t in (0..c.mesh.triangles.len()).map(TriangleId::of) {
         let [a, b, d] = c.mesh.corners(t).map(|p| p.map(Residue::from_f64));
@@ -383,7 +390,7 @@ fn on_level(c: &Complex, f: FaceId) -> Check {
 }
 
 /// What needs exact geometry: each vertex on the planes that it names and on the support of its faces, coordinates
-/// correctly rounded, cells with positive volume, and the Euler characteristic of the solid (of a network's regions where nothing is pinched). For tests: a rational volume
+/// correctly rounded, cells with positive volume, and the Euler characteristic of the solid (of a network's regions where nothing is pinched; not of cells of an arrangement). For tests: a rational volume
 /// per cell.
 pub fn check_exact(c: &Complex) -> Check {
     (0..c.vertex_count()).into_par_iter().try_for_each(|v| {
@@ -410,6 +417,10 @@ pub fn check_exact(c: &Complex) -> Check {
         ensure(exact_values::cell_volume(c, k) > 0, || format!("cell {}: its volume is not positive", k.0))
     })?;
     let adjacency = adjacency(c)?;
+    // What cells of an arrangement make up together is known to nothing else.
+    if c.two_sided {
+        return Ok(());
+    }
     if !c.levels.supports.is_empty() && is_pinched(c, &adjacency) {
         return Ok(());
     }

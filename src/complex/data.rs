@@ -22,6 +22,8 @@ pub enum Origin {
     Edges(EdgeId, EdgeId),
     /// Where the planes of three triangles meet.
     Triangles(TriangleId, TriangleId, TriangleId),
+    /// Where the planes of two triangles and a plane meet.
+    TrianglesPlane(TriangleId, TriangleId, PlaneId),
     /// Where linear functions vanish: a position in [`Levels::points`].
     Level(u32),
 }
@@ -78,6 +80,9 @@ pub struct Complex {
     pub mesh: Arc<TriMesh>,
     pub planes: Vec<Plane>,
     pub levels: Arc<Levels>,
+    /// Faces on triangles may have a cell before them, or none behind (arrangements): triangles do not bound the solid, and vertices on them may
+    /// be named by others.
+    pub two_sided: bool,
 
     /// Symbolic vertices and their coordinates, correctly rounded.
     pub origins: Vec<Origin>,
@@ -108,7 +113,7 @@ pub struct Complex {
     pub cell_shells: Vec<u32>,
     /// Shell `s` has half-faces `shell_faces.row(s)`, rising.
     pub shell_faces: Csr<HalfFace>,
-    /// The input component that holds each cell's body.
+    /// The input component that holds each cell's body; where faces are two-sided, cells that are joined across faces have one number.
     pub cell_component: Vec<ComponentId>,
 }
 
@@ -172,6 +177,10 @@ pub fn origin_point(mesh: &TriMesh, planes: &[Plane], origin: Origin) -> Point {
         }
         Origin::Level(_) => unreachable!("levels are those of a complex"),
         Origin::Triangles(t, u, v) => Point::Supports([t, u, v].map(|t| exact::Support::Triangle(mesh.corners(t)))),
+        Origin::TrianglesPlane(t, u, p) => {
+            let [t, u] = [t, u].map(|t| exact::Support::Triangle(mesh.corners(t)));
+            Point::Supports([t, u, exact::Support::Plane(planes[p.at()])])
+        }
     }
 }
 

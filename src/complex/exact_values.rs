@@ -147,12 +147,13 @@ fn cone(c: &Complex, f: FaceId) -> Rational {
     integrate(c, f, pr, false).0 * value / n[3 - pr.ax - pr.ay].clone().abs()
 }
 
-/// The corners of a face that is a whole input triangle.
+/// The corners of a face that is a triangle of input vertices.
 fn uncut(c: &Complex, f: FaceId) -> Option<[[f64; 3]; 3]> {
-    let SupportId::Triangle(t) = c.face_support[f.at()] else { return None };
-    let r = c.face_corners(f);
-    let whole = r.len() == 3 && r.into_iter().all(|k| matches!(c.origins[c.corner_vertices[k].at()], Origin::Mesh(_)));
-    whole.then(|| c.mesh.corners(t))
+    let [x, y, z] = c.corner_vertices[c.face_corners(f)] else { return None };
+    match [x, y, z].map(|v| c.origins[v.at()]) {
+        [Origin::Mesh(x), Origin::Mesh(y), Origin::Mesh(z)] => Some([x, y, z].map(|v| c.mesh.vertices[v.at()])),
+        _ => None,
+    }
 }
 
 /// The lowest exponent of two in any of these numbers.

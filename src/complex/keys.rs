@@ -117,10 +117,12 @@ const ACROSS: u32 = 56;
 /// Added to `LINE`: the start is a plane (after the kinds of mesh elements: three corners, three sides, a triangle).
 const BY_PLANE: u32 = 7;
 const BY_END: u32 = 2;
-// Vertices made of triangles and edges. Three sides each.
+// Vertices made of triangles and edges, three sides each, and what planes add.
 const PIERCED: u32 = 96;
 const CROSSED: u32 = 100;
 const THREE: u32 = 110;
+/// And a plane.
+const TWO: u32 = 111;
 
 /// A tag below 128 and three ids.
 #[inline(always)]
@@ -235,7 +237,7 @@ impl Names<'_> {
             Origin::Edge(e, _) => Some(self.edge(e)).map(|(id, k)| (id, ON_SIDE + k)),
             Origin::Triangle(t, _, _) => Some((self.triangle(t), INSIDE)),
             Origin::EdgeTriangle(e, _) | Origin::Edges(e, _) => Some(self.edge(e)).map(|(id, k)| (id, ON_SIDE + k)),
-            Origin::Triangles(t, ..) => Some((self.triangle(t), INSIDE)),
+            Origin::Triangles(t, ..) | Origin::TrianglesPlane(t, ..) => Some((self.triangle(t), INSIDE)),
             Origin::Planes(..) | Origin::Level(_) => None,
         }
     }
@@ -275,6 +277,10 @@ fn of_triangles(names: &Names, origin: Origin) -> u128 {
             let mut ids = [t, u, v].map(|t| names.triangle(t));
             ids.sort_unstable();
             pack(THREE, ids[0], ids[1], ids[2])
+        }
+        Origin::TrianglesPlane(t, u, p) => {
+            let (t, u) = (names.triangle(t), names.triangle(u));
+            pack(TWO, t.min(u), t.max(u), names.plane(p))
         }
         Origin::Mesh(_) | Origin::Edge(..) | Origin::Triangle(..) | Origin::Planes(..) => {
             unreachable!("the caller's match has those with planes")

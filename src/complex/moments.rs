@@ -186,7 +186,7 @@ fn position(c: &Complex, v: VertexId) -> Vector {
                 let (u, v) = seen_along(axis);
                 let turn = |x: [f64; 3]| {
                     let from = |y: [f64; 3], i: usize| Certified::difference(y[i], p[i]);
-                    minor(from(q, u), from(q, v), from(x, u), from(x, v))
+                    minor(from(q, u), from(x, v), from(q, v), from(x, u))
                 };
                 along(&mut rest, &known, [a, b], [turn(a), turn(b)]);
             }
@@ -197,20 +197,17 @@ fn position(c: &Complex, v: VertexId) -> Vector {
             if known.contains(&None) {
                 // Relative to a corner of the first.
                 let o = all[0][0];
-                let [a, b, d] = all.map(|t| {
-                    let to = |p: [f64; 3]| -> Vector { std::array::from_fn(|i| Certified::difference(p[i], t[0][i])) };
-                    cross(&to(t[1]), &to(t[2]))
-                });
-                let from =
-                    |t: &[[f64; 3]; 3]| -> Vector { std::array::from_fn(|i| Certified::difference(t[0][i], o[i])) };
-                let [y, z] = [dot(&b, &from(&all[1])), dot(&d, &from(&all[2]))];
-                let (ab, bd, da) = (cross(&a, &b), cross(&b, &d), cross(&d, &a));
-                let det = dot(&a, &bd);
-                for i in 0..3 {
-                    if known[i].is_none() {
-                        rest[i] = Certified::exactly(o[i]) + (y * da[i] + z * ab[i]) / det;
-                    }
-                }
+                let meet = all.map(|t| from_corner(&t, &o));
+                where_planes_meet(&mut rest, &known, &o, &meet);
+            }
+        }
+        Origin::TrianglesPlane(t, u, p) => {
+            let all = [t, u].map(|t| c.mesh.corners(t));
+            all.iter().for_each(|t| fix(&mut known, t));
+            if known.contains(&None) {
+                let (o, p) = (all[0][0], &c.planes[p.at()]);
+                let [a, b] = all.map(|t| from_corner(&t, &o));
+                where_planes_meet(&mut rest, &known, &o, &[a, b, (exactly(p.n), -value(p, &o))]);
             }
         }
         Origin::Level(i) => {
@@ -263,6 +260,31 @@ fn position(c: &Complex, v: VertexId) -> Vector {
         }
     }
     std::array::from_fn(|i| known[i].unwrap_or(rest[i]))
+}
+
+/// The normal of a triangle's plane and the plane's value, relative to a point.
+fn from_corner(t: &[[f64; 3]; 3], o: &[f64; 3]) -> (Vector, Certified) {
+    let to = |p: [f64; 3]| -> Vector { std::array::from_fn(|i| Certified::difference(p[i], t[0][i])) };
+    let n = cross(&to(t[1]), &to(t[2]));
+    let place: Vector = std::array::from_fn(|i| Certified::difference(t[0][i], o[i]));
+    let value = dot(&n, &place);
+    (n, value)
+}
+
+/// Where three planes n·(x − o) = value meet; the first goes through o. Coordinates that are not known yet.
+fn where_planes_meet(
+    rest: &mut Vector,
+    known: &[Option<Certified>; 3],
+    o: &[f64; 3],
+    [(a, _), (b, y), (d, z)]: &[(Vector, Certified); 3],
+) {
+    let (ab, bd, da) = (cross(a, b), cross(b, d), cross(d, a));
+    let det = dot(a, &bd);
+    for i in 0..3 {
+        if known[i].is_none() {
+            rest[i] = Certified::exactly(o[i]) + (*y * da[i] + *z * ab[i]) / det;
+        }
+    }
 }
 
 /// The point between a and b where what has these values there vanishes; coordinates that are not known yet.

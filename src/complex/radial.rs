@@ -82,7 +82,7 @@ impl EdgeUses {
 }
 
 fn on_surface(c: &Complex, u: FaceUse) -> bool {
-    matches!(c.face_support[u.face.at()], SupportId::Triangle(_))
+    !c.two_sided && matches!(c.face_support[u.face.at()], SupportId::Triangle(_))
 }
 
 /// Whether a half-face faces the inside of the solid: before a surface face is the outside. Once cells are known, they tell: of a part of a

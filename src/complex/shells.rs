@@ -9,6 +9,7 @@
 //!
 //! Cost: linear in the face corners, times the inverse Ackermann function; all of it shared out among threads.
 
+use super::exact_values::volume_within;
 use super::radial::{FaceUse, wedge_pairs};
 use super::{Complex, HalfFace, SupportId};
 use crate::base::bits::ones;
@@ -138,7 +139,7 @@ where
     let open = OpenEdges::new(&joined.open);
     let row_count = open.count(c.edge_count());
     let uses = Csr::from_walk(row_count, &OpenUses { c, joined, open: &open });
-    let on_surface = |h: HalfFace| matches!(c.face_support[h.face().at()], SupportId::Triangle(_));
+    let on_surface = |h: HalfFace| !c.two_sided && matches!(c.face_support[h.face().at()], SupportId::Triangle(_));
     let outcomes = map_ranges(row_count, LEAST, |range| {
         let (mut row, mut scratch, mut simple) = (Vec::new(), Vec::new(), 0);
         let mut along = along();
@@ -209,6 +210,40 @@ pub fn fill_cells(
     c.cell_shells = by_cell.offsets;
     let cell = |s: ShellId| if s.is_none() { CellId::NONE } else { cell_of[s.at()] };
     sort_half_faces(c, shells, count, |s| place[s.at()] as usize, cell);
+}
+
+/// The outer shell of each cell, given the cell of each shell: it reaches farthest along x; where several reach as far, it is the one with positive
+/// volume. `Inconsistent` for a cell without one.
+pub fn outer_shells(c: &Complex, shells: &Shells, cell_of: &[CellId], cells: usize) -> Result<Vec<ShellId>> {
+    let of_cell = Csr::from_pairs(cells, cell_of.iter().enumerate().map(|(s, cell)| (cell.at(), ShellId::of(s))));
+    let lost = |cell: usize| Error::inconsistent(format!("cell {cell} has no outer shell"));
+    if of_cell.rows().all(|row| row.len() == 1) {
+        return Ok(of_cell.items);
+    }
+    // Rounding keeps the order of coordinates.
+    let mut reach = vec![f64::NEG_INFINITY; cell_of.len()];
+    let half_faces =
+        || shells.of.iter().enumerate().map(|(h, s)| (HalfFace(h as u32), *s)).filter(|(_, s)| s.is_some());
+    for (h, s) in half_faces() {
+        for &v in &c.corner_vertices[c.face_corners(h.face())] {
+            reach[s.at()] = reach[s.at()].max(c.coords[v.at()][0]);
+        }
+    }
+    let mut outer = Vec::with_capacity(cells);
+    for (cell, row) in of_cell.rows().enumerate() {
+        let far = row.iter().map(|s| reach[s.at()]).fold(f64::NEG_INFINITY, f64::max);
+        let mut farthest = row.iter().copied().filter(|s| reach[s.at()] == far);
+        let first = farthest.next().ok_or_else(|| lost(cell))?;
+        let positive = |s: &ShellId| {
+            let faces: Vec<HalfFace> = half_faces().filter(|(_, t)| t == s).map(|(h, _)| h).collect();
+            volume_within(c, &faces) > 0
+        };
+        outer.push(match farthest.next() {
+            None => first,
+            Some(second) => [first, second].into_iter().chain(farthest).find(positive).ok_or_else(|| lost(cell))?,
+        });
+    }
+    Ok(outer)
 }
 
 /// The cell of each shell, and the number of cells.

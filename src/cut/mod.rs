@@ -15,7 +15,7 @@ pub mod triangles;
 pub mod voids;
 
 use crate::base::parallel::Pool;
-use crate::base::{Culprit, DefectKind, Error, PlaneId, Result, Run, Status};
+use crate::base::{Error, PlaneId, Result, Run, Status};
 use crate::complex::{Complex, Origin, shells};
 use crate::exact::{self, Plane};
 use crate::mesh::TriMesh;
@@ -42,7 +42,8 @@ pub struct Cut {
 /// Errors: `BadPlane` with every plane that is not finite or has a zero normal; `TooLarge`; `Cancelled`; `Inconsistent`
 /// if the mesh intersects itself in a way that shows.
 pub fn cut(mesh: &Arc<TriMesh>, planes: &[Plane], _options: &CutOptions, run: &mut Run) -> Result<Cut> {
-    validate(planes)?;
+    exact::planes::validate(planes)?;
+    limit(planes.len())?;
     run.stage("classify", 0.0)?;
     let [low, high] = mesh.bbox;
     let max_abs = std::array::from_fn(|i| low[i].abs().max(high[i].abs()));
@@ -121,24 +122,6 @@ pub fn cut(mesh: &Arc<TriMesh>, planes: &[Plane], _options: &CutOptions, run: &m
     let plane_map = knives.knife_of.iter().map(|k| knives.ids[k.at()]).collect();
     run.end_stage();
     Ok(Cut { complex, plane_map, stages: run.take_stages() })
-}
-
-fn validate(planes: &[Plane]) -> Result<()> {
-    let mut culprits = Vec::new();
-    for (i, p) in planes.iter().enumerate() {
-        if !p.d.is_finite() || p.n.iter().any(|x| !x.is_finite()) {
-            culprits.push(Culprit::new(DefectKind::NonFinitePlane, &[i as i64]));
-        } else if p.n == [0.0; 3] {
-            culprits.push(Culprit::new(DefectKind::ZeroNormal, &[i as i64]));
-        }
-    }
-    match culprits.first() {
-        None => limit(planes.len()),
-        Some(first) => {
-            let what = if first.kind == DefectKind::ZeroNormal { "has a zero normal" } else { "is not finite" };
-            Err(Error::with(Status::BadPlane, format!("plane {} {what}", first.ids[0]), culprits.clone()))
-        }
-    }
 }
 
 /// Ids are 32-bit, and half-faces and half-edges take one bit of them.

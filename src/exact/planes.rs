@@ -8,7 +8,7 @@
 use super::Sign;
 use super::rows::{Row, determinant_of_rows};
 use super::types::Plane;
-use crate::base::{FamilyId, PlaneId};
+use crate::base::{self, Culprit, DefectKind, Error, FamilyId, PlaneId, Status};
 use std::cmp::Ordering;
 
 /// A set of distinct parallel planes.
@@ -33,6 +33,25 @@ pub struct Grouping {
     pub family_of: Vec<FamilyId>,
     /// The place of each plane (of its representative) among the family's members.
     pub rank_in_family: Vec<u32>,
+}
+
+/// `BadPlane` with every plane that is not finite or has a zero normal.
+pub fn validate(planes: &[Plane]) -> base::Result<()> {
+    let mut culprits = Vec::new();
+    for (i, p) in planes.iter().enumerate() {
+        if !p.d.is_finite() || p.n.iter().any(|x| !x.is_finite()) {
+            culprits.push(Culprit::new(DefectKind::NonFinitePlane, &[i as i64]));
+        } else if p.n == [0.0; 3] {
+            culprits.push(Culprit::new(DefectKind::ZeroNormal, &[i as i64]));
+        }
+    }
+    match culprits.first() {
+        None => Ok(()),
+        Some(first) => {
+            let what = if first.kind == DefectKind::ZeroNormal { "has a zero normal" } else { "is not finite" };
+            Err(Error::with(Status::BadPlane, format!("plane {} {what}", first.ids[0]), culprits.clone()))
+        }
+    }
 }
 
 /// A plane's direction and offset as rounded ratios to the leading component of its normal.

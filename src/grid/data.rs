@@ -96,7 +96,11 @@ impl Origins {
                 Origin::Edge(e, p) => (e.0, ON_EDGE + axis(p)),
                 Origin::Triangle(t, p, q) => (t.0, IN_TRIANGLE + 3 - axis(p) - axis(q)),
                 Origin::Planes(..) => (0, NODE),
-                Origin::EdgeTriangle(..) | Origin::Edges(..) | Origin::Triangles(..) | Origin::Level(_) => {
+                Origin::EdgeTriangle(..)
+                | Origin::Edges(..)
+                | Origin::Triangles(..)
+                | Origin::TrianglesPlane(..)
+                | Origin::Level(_) => {
                     unreachable!("grids make points on planes only")
                 }
             };

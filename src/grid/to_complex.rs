@@ -57,6 +57,7 @@ pub fn to_complex(grid: &GridCells) -> Complex {
         mesh: grid.mesh.clone(),
         planes: grid.planes.clone(),
         levels: Default::default(),
+        two_sided: false,
         origins: (0..grid.vertex_count()).map(|v| grid.origin(VertexId::of(v))).collect(),
         coords: grid.coords.clone(),
         vertex_planes,

@@ -5,8 +5,7 @@
 //! its cell twice.
 //!
 //! Half-faces are joined across edges as in every complex ([`crate::complex::shells`]); those of a shell border one region, of which a polygon tells,
-//! or where the shell has none a walk through the domain ([`super::locate`]). Of the shells of a region the outer one reaches
-//! farthest along x; where several reach as far, the one with positive volume.
+//! or where the shell has none a walk through the domain ([`super::locate`]).
 //!
 //! Cost: linear in the network and the boundary, sorts of edges and polygons, and what `walls` and `locate` need.
 
@@ -18,11 +17,10 @@ use super::simplex::Kind;
 use super::topology::Topology;
 use super::walls::{Boundary, TetPolygons, cut_walls, find_boundary};
 use crate::base::parallel::{concat, map_ranges};
-use crate::base::{CellId, Csr, Error, FaceId, FunctionId, PlaneId, PolygonId, Result, Run, ShellId, Status, VertexId};
+use crate::base::{CellId, Csr, Error, FaceId, FunctionId, PlaneId, PolygonId, Result, Run, Status, VertexId};
 use crate::complex::bodies::assign_components;
-use crate::complex::exact_values::volume_within;
 use crate::complex::loops::find_edges;
-use crate::complex::shells::{Joined, Shells, fill_cells, find_shells};
+use crate::complex::shells::{Joined, fill_cells, find_shells, outer_shells};
 use crate::complex::{Complex, HalfFace, Levels, Origin, SupportId};
 use crate::exact::{Gradient, Linear, Sign, Zero};
 use std::sync::Arc;
@@ -168,37 +166,4 @@ fn fill_vertices(c: &mut Complex, network: &Network, boundary: &Boundary) {
     c.origins = (0..boundary.mesh.vertices.len()).map(|v| Origin::Mesh(VertexId::of(v))).collect();
     c.origins.extend((0..levels.points.len() as u32).map(Origin::Level));
     c.vertex_planes = Csr { offsets: vec![0; c.coords.len() + 1], items: Vec::new() };
-}
-
-/// The outer shell of each cell.
-fn outer_shells(c: &Complex, shells: &Shells, cell_of: &[CellId], cells: usize) -> Result<Vec<ShellId>> {
-    let of_cell = Csr::from_pairs(cells, cell_of.iter().enumerate().map(|(s, cell)| (cell.at(), ShellId::of(s))));
-    let lost = |cell: usize| Error::inconsistent(format!("region {cell} has no outer shell"));
-    if of_cell.rows().all(|row| row.len() == 1) {
-        return Ok(of_cell.items);
-    }
-    // Rounding keeps the order of coordinates.
-    let mut reach = vec![f64::NEG_INFINITY; cell_of.len()];
-    let half_faces =
-        || shells.of.iter().enumerate().map(|(h, s)| (HalfFace(h as u32), *s)).filter(|(_, s)| s.is_some());
-    for (h, s) in half_faces() {
-        for &v in &c.corner_vertices[c.face_corners(h.face())] {
-            reach[s.at()] = reach[s.at()].max(c.coords[v.at()][0]);
-        }
-    }
-    let mut outer = Vec::with_capacity(cells);
-    for (cell, row) in of_cell.rows().enumerate() {
-        let far = row.iter().map(|s| reach[s.at()]).fold(f64::NEG_INFINITY, f64::max);
-        let mut farthest = row.iter().copied().filter(|s| reach[s.at()] == far);
-        let first = farthest.next().ok_or_else(|| lost(cell))?;
-        let positive = |s: &ShellId| {
-            let faces: Vec<HalfFace> = half_faces().filter(|(_, t)| t == s).map(|(h, _)| h).collect();
-            volume_within(c, &faces) > 0
-        };
-        outer.push(match farthest.next() {
-            None => first,
-            Some(second) => [first, second].into_iter().chain(farthest).find(positive).ok_or_else(|| lost(cell))?,
-        });
-    }
-    Ok(outer)
 }

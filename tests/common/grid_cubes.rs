@@ -195,6 +195,6 @@ pub fn resolved(operands: &[Operand], mut apart: impl FnMut() -> bool) -> Resolv
         bbox,
         ..TriMesh::default()
     };
-    r.soup = Soup { mesh: Arc::new(mesh), first_triangle, source, dropped: vec![0; operands.len()] };
+    r.soup = Soup { mesh: Arc::new(mesh), first_triangle, source, dropped: vec![0; operands.len()], ..Soup::default() };
     r
 }
