@@ -12,16 +12,17 @@ use super::data::{Carrier, Contacts, Points, Segment, Soup};
 use super::pair::{Sink, meet};
 use super::points;
 use super::stars::flat_stars;
-use crate::base::{EdgeId, Result, Run, TriangleId, VertexId};
+use crate::base::{EdgeId, Result, Run, TriangleId, VertexId, Watch};
 use crate::complex::Origin;
 use crate::mesh::TriMesh;
 use crate::mesh::bvh::{NodePair, build_bvh};
 use rayon::prelude::*;
 
-/// Triangles for each pair of nodes whose triangles one task intersects, about; and so many tasks between two looks at whether the
-/// caller wants to stop.
+/// Triangles for each pair of nodes whose triangles one task intersects, about; so many tasks whose findings are put together at once; and so many
+/// pairs of triangles between two looks at whether the caller wants to stop.
 const PART: usize = 1 << 9;
 const AT_ONCE: usize = 1 << 9;
+const PAIRS: u64 = 1 << 7;
 
 /// What pairs told.
 #[derive(Default)]
@@ -62,30 +63,39 @@ pub fn intersect(soup: &Soup, run: &mut Run) -> Result<Contacts> {
     let stars = flat_stars(mesh);
     run.tick("intersect", 0.16)?;
     let mut found = Found::default();
-    let decide = |&pair: &NodePair| {
+    let decide = |&pair: &NodePair, watch: &Watch| {
         let mut part = Found::default();
+        let mut asked = 0;
         tree.meeting_pairs_below(pair, |a, b| {
-            if !stars.settle(&mesh.triangles[a.at()], &mesh.triangles[b.at()]) {
-                part.pairs += meet(mesh, a.min(b), a.max(b), &mut part) as u64;
+            if stars.settle(&mesh.triangles[a.at()], &mesh.triangles[b.at()]) {
+                return true;
             }
+            part.pairs += meet(mesh, a.min(b), a.max(b), &mut part) as u64;
+            asked += 1;
+            asked % PAIRS != 0 || watch.go_on()
         });
         part
     };
-    for pairs in tree.node_pairs(mesh.triangles.len() / PART).chunks(AT_ONCE) {
-        if rayon::current_num_threads() == 1 {
-            pairs.iter().for_each(|pair| found.add(decide(pair)));
-        } else {
-            let parts: Vec<Found> = pairs.par_iter().with_max_len(1).map(decide).collect();
-            parts.into_iter().for_each(|part| found.add(part));
-        }
+    let pairs = tree.node_pairs(mesh.triangles.len() / PART);
+    for pairs in pairs.chunks(AT_ONCE) {
+        run.watched("intersect", 0.2, |watch| {
+            if rayon::current_num_threads() == 1 {
+                pairs.iter().take_while(|_| watch.go_on()).for_each(|pair| found.add(decide(pair, watch)));
+            } else {
+                let decide = |pair| if watch.go_on() { decide(pair, watch) } else { Found::default() };
+                let parts: Vec<Found> = pairs.par_iter().with_max_len(1).map(decide).collect();
+                parts.into_iter().for_each(|part| found.add(part));
+            }
+        })?;
         run.tick("intersect", 0.2)?;
     }
     drop(tree);
     run.tick("intersect", 0.3)?;
-    Ok(gather(mesh, found))
+    run.watched("intersect", 0.3, |watch| gather(mesh, found, watch))
 }
 
-fn gather(mesh: &TriMesh, mut found: Found) -> Contacts {
+/// (Told to stop it returns something or other.)
+fn gather(mesh: &TriMesh, mut found: Found, watch: &Watch) -> Contacts {
     found.on_edges.par_sort_unstable();
     found.on_edges.dedup();
     found.in_triangles.par_sort_unstable();
@@ -96,7 +106,10 @@ fn gather(mesh: &TriMesh, mut found: Found) -> Contacts {
     origins.par_sort_unstable();
     origins.dedup();
     let mut points = Points::default();
-    let ids = points::unify(mesh, &mut points, &origins);
+    let ids = points::unify(mesh, &mut points, &origins, watch);
+    if !watch.go_on() {
+        return Contacts::default();
+    }
     let id = |o: &Origin| ids[origins.partition_point(|p| p < o)];
     let mut contacts = Contacts { pair_count: found.pairs, overlaps: found.overlaps, ..Contacts::default() };
     for row in found.on_edges.chunk_by(|a, b| a.0 == b.0) {

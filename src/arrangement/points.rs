@@ -6,7 +6,7 @@
 //! Cost: n log n comparisons of doubles; a microsecond for each exact one.
 
 use super::data::Points;
-use crate::base::VertexId;
+use crate::base::{VertexId, Watch};
 use crate::complex::Origin;
 use crate::complex::data::origin_point;
 use crate::exact;
@@ -16,8 +16,8 @@ use std::cmp::Ordering;
 
 /// Gives ids to points: soup vertices keep theirs, known points too, and of new ones that are equal the least origin stands for all.
 ///
-/// `origins`: sorted, each once. Returns the id of each.
-pub fn unify(mesh: &TriMesh, points: &mut Points, origins: &[Origin]) -> Vec<VertexId> {
+/// `origins`: sorted, each once. Returns the id of each. (Told to stop it returns something or other.)
+pub fn unify(mesh: &TriMesh, points: &mut Points, origins: &[Origin], watch: &Watch) -> Vec<VertexId> {
     let first = mesh.vertices.len();
     /// A place with its name: an id, or the number of a new origin.
     struct Entry {
@@ -27,13 +27,17 @@ pub fn unify(mesh: &TriMesh, points: &mut Points, origins: &[Origin]) -> Vec<Ver
     }
     let rounded = |origin: &Origin| match *origin {
         Origin::Mesh(v) => mesh.vertices[v.at()],
-        _ => exact::round(&origin_point(mesh, &[], *origin)),
+        _ if watch.go_on() => exact::round(&origin_point(mesh, &[], *origin)),
+        _ => [0.0; 3],
     };
     let entry = |(i, origin): (usize, &Origin)| {
         let id = if let Origin::Mesh(v) = *origin { v } else { VertexId::NONE };
         Entry { at: rounded(origin), id, new: i as u32 }
     };
     let mut entries: Vec<Entry> = origins.par_iter().with_min_len(64).enumerate().map(entry).collect();
+    if !watch.go_on() {
+        return Vec::new();
+    }
     let known = points.coords.iter().enumerate();
     entries.extend(known.map(|(i, &at)| Entry { at, id: VertexId::of(first + i), new: u32::MAX }));
     // Within a place those with ids first, then new ones by origin.
@@ -48,7 +52,7 @@ pub fn unify(mesh: &TriMesh, points: &mut Points, origins: &[Origin]) -> Vec<Ver
     // The entry that stands for each new origin.
     let mut leaders: Vec<(u32, u32)> = Vec::new();
     let mut start = 0;
-    while start < entries.len() {
+    while start < entries.len() && (start % 64 != 0 || watch.go_on()) {
         let end = start + entries[start..].iter().take_while(|e| e.at == entries[start].at).count();
         for i in start..end {
             let e = &entries[i];

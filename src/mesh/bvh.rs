@@ -255,16 +255,9 @@ impl Bvh {
         }
     }
 
-    /// Those of [`Bvh::meeting_pairs`] that are below a pair of nodes.
-    pub fn meeting_pairs_below(&self, pair: NodePair, mut visit: impl FnMut(TriangleId, TriangleId)) {
-        self.pairs_among(
-            vec![pair],
-            |_, _| true,
-            |a, b| {
-                visit(a, b);
-                true
-            },
-        );
+    /// Those of [`Bvh::meeting_pairs`] that are below a pair of nodes, until `visit` returns false.
+    pub fn meeting_pairs_below(&self, pair: NodePair, visit: impl FnMut(TriangleId, TriangleId) -> bool) {
+        self.pairs_among(vec![pair], |_, _| true, visit);
     }
 
     fn root_pair(&self) -> Vec<NodePair> {
