@@ -16,7 +16,7 @@ mod common;
 #[path = "common/solid_oracle.rs"]
 mod solid_oracle;
 use common::random::Random;
-use solid_oracle::{P, cross, fit, minus};
+use solid_oracle::{P, cross, fit, minus, surely_apart};
 
 type Arrays = (Vec<[f64; 3]>, Vec<[i32; 3]>);
 
@@ -39,8 +39,12 @@ fn resolved(operands: &[Arrays]) -> Resolved {
 
 fn assert_right(r: &Resolved, seed: u64) {
     let points: Vec<P> = (0..r.vertex_count()).map(|v| exact::rational(&r.point(VertexId::of(v)))).collect();
+    let coords: Vec<[f64; 3]> = (0..r.vertex_count()).map(|v| r.coords(VertexId::of(v))).collect();
     for (i, f) in r.faces.iter().enumerate() {
         for (j, g) in r.faces[..i].iter().enumerate() {
+            if surely_apart(&coords, &f.map(|v| v.0), &g.map(|v| v.0)) {
+                continue;
+            }
             assert!(fit(|v: VertexId| points[v.at()].clone(), f, g), "seed {seed}: faces {i} and {j} meet");
         }
     }

@@ -14,7 +14,7 @@ use super::planar::Plane;
 use super::points;
 use crate::base::{Csr, EdgeId, Result, Run, TriangleId, VertexId, Watch};
 use crate::complex::Origin;
-use crate::mesh::bvh::build_bvh;
+use crate::mesh::bvh::build_bvh_watched;
 use rayon::prelude::*;
 
 /// From so many segments on, pairs are looked for in a hierarchy.
@@ -61,8 +61,10 @@ pub fn crossings(soup: &Soup, contacts: Contacts, clusters: &Clusters, run: &mut
     let touching = touching.filter(|v| v.at() < mesh.vertices.len()).map(Origin::Mesh);
     let new = works.iter().flat_map(|w| &w.events).filter(|e| e.known.is_none()).map(|e| e.new);
     let mut origins: Vec<Origin> = touching.chain(new).collect();
+    run.tick("crossings", 0.45)?;
     origins.par_sort_unstable();
     origins.dedup();
+    run.tick("crossings", 0.45)?;
     let Contacts { points, split_edges, edge_points, .. } = contacts;
     let mut graphs = Graphs { points, split_edges, edge_points, ..Graphs::default() };
     let ids = run.watched("crossings", 0.45, |watch| points::unify(mesh, &mut graphs.points, &origins, watch))?;
@@ -71,12 +73,16 @@ pub fn crossings(soup: &Soup, contacts: Contacts, clusters: &Clusters, run: &mut
         let piece = |(c, work): (usize, &Work)| pieces(soup, &graphs, clusters.members.row(c), work, id, watch);
         works.par_iter().with_min_len(LEAST).enumerate().map(piece).collect()
     })?;
+    run.tick("crossings", 0.48)?;
     let (mut rows, mut lone) = (Csr::default(), Csr::default());
     for (p, l) in &parts {
         rows.push_row(p);
         lone.push_row(l);
     }
     (graphs.pieces, graphs.lone) = (rows, lone);
+    run.tick("crossings", 0.5)?;
+    drop(parts);
+    drop(works);
     run.tick("crossings", 0.5)?;
     Ok(graphs)
 }
@@ -114,7 +120,7 @@ fn find(soup: &Soup, contacts: &Contacts, members: &[TriangleId], watch: &Watch)
     let places: Vec<[f64; 3]> = all.iter().flat_map(|s| s.ends).map(|v| plane.place(v)).collect();
     let flat: Vec<[VertexId; 3]> = (0..all.len()).map(|i| [2 * i, 2 * i + 1, 2 * i + 1].map(VertexId::of)).collect();
     let mut asked = 0;
-    build_bvh(&places, &flat).meeting_pairs(|a, b| {
+    build_bvh_watched(&places, &flat, watch).meeting_pairs(|a, b| {
         let (i, j) = (a.at().min(b.at()), a.at().max(b.at()));
         if i < inner {
             meet(&plane, &all, inner, i, j, events);

@@ -15,7 +15,7 @@ use super::stars::flat_stars;
 use crate::base::{EdgeId, Result, Run, TriangleId, VertexId, Watch};
 use crate::complex::Origin;
 use crate::mesh::TriMesh;
-use crate::mesh::bvh::{NodePair, build_bvh};
+use crate::mesh::bvh::{NodePair, build_bvh_watched};
 use rayon::prelude::*;
 
 /// Triangles for each pair of nodes whose triangles one task intersects, about; so many tasks whose findings are put together at once; and so many
@@ -58,7 +58,7 @@ impl Found {
 pub fn intersect(soup: &Soup, run: &mut Run) -> Result<Contacts> {
     run.stage("candidates", 0.1)?;
     let mesh = &*soup.mesh;
-    let tree = build_bvh(&mesh.vertices, &mesh.triangles);
+    let tree = run.watched("candidates", 0.1, |watch| build_bvh_watched(&mesh.vertices, &mesh.triangles, watch))?;
     run.stage("intersect", 0.15)?;
     let stars = flat_stars(mesh);
     run.tick("intersect", 0.16)?;

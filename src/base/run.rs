@@ -15,16 +15,18 @@ pub struct Run<'a> {
     log: Option<&'a mut (dyn FnMut(&str) + 'a)>,
     stages: Vec<(&'static str, f64)>,
     open: Option<(&'static str, Instant)>,
+    /// The largest fraction told: calls within calls begin anew, the caller sees none fall.
+    reached: f64,
 }
 
 impl<'a> Run<'a> {
     /// Reports to nobody.
     pub fn quiet() -> Self {
-        Self { progress: None, log: None, stages: Vec::new(), open: None }
+        Self { progress: None, log: None, stages: Vec::new(), open: None, reached: 0.0 }
     }
 
     pub fn new(progress: Option<&'a mut Progress<'a>>, log: Option<&'a mut (dyn FnMut(&str) + 'a)>) -> Self {
-        Self { progress, log, stages: Vec::new(), open: None }
+        Self { progress, log, stages: Vec::new(), open: None, reached: 0.0 }
     }
 
     /// Ends the running stage, starts the next, and tells the progress sink. `fraction` is of the whole call.
@@ -36,8 +38,9 @@ impl<'a> Run<'a> {
 
     /// Progress within a stage; an error if the caller wants to stop.
     pub fn tick(&mut self, name: &'static str, fraction: f64) -> Result<()> {
+        self.reached = self.reached.max(fraction);
         if let Some(progress) = self.progress.as_mut()
-            && !progress(name, fraction)
+            && !progress(name, self.reached)
         {
             return Err(cancelled(name));
         }
@@ -50,8 +53,7 @@ impl<'a> Run<'a> {
             .progress
             .as_mut()
             .map(|progress| -> Mutex<Box<Ask>> { Mutex::new(Box::new(move || progress(name, fraction))) });
-        let start = Instant::now();
-        let watch = Watch { ask, stopped: AtomicBool::new(false), start, next: AtomicU64::new(PERIOD) };
+        let watch = Watch { ask, ..Watch::quiet() };
         let result = work(&watch);
         if watch.stopped.into_inner() { Err(cancelled(name)) } else { Ok(result) }
     }
@@ -97,6 +99,11 @@ pub struct Watch<'r> {
 type Ask<'r> = dyn FnMut() -> bool + Send + 'r;
 
 impl Watch<'_> {
+    /// Nobody is asked.
+    pub fn quiet() -> Self {
+        Self { ask: None, stopped: AtomicBool::new(false), start: Instant::now(), next: AtomicU64::new(PERIOD) }
+    }
+
     /// Whether to go on. Once it says no it always does.
     #[inline]
     pub fn go_on(&self) -> bool {

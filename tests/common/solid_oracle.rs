@@ -142,9 +142,9 @@ fn certain_side(t: &[[f64; 3]; 3], x: &[f64; 3]) -> Option<bool> {
     let (e, f, g) = (d(&t[1]), d(&t[2]), d(x));
     let mut det = 0.0;
     let size = |v: &[f64; 3]| v.iter().map(|c| c.abs()).sum::<f64>();
-    for i in 0..3 {
+    for (i, x) in g.iter().enumerate() {
         let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-        det += g[i] * (e[j] * f[k] - e[k] * f[j]);
+        det += x * (e[j] * f[k] - e[k] * f[j]);
     }
     let most = t.iter().chain([x]).flatten().fold(0.0f64, |m, c| m.max(c.abs()));
     let (a, b, c) = (size(&e), size(&f), size(&g));
@@ -187,7 +187,8 @@ fn off_edge(coords: &[[f64; 3]], f: &[u32; 3], g: &[u32; 3]) -> bool {
     })
 }
 
-fn surely_apart(coords: &[[f64; 3]], f: &[u32; 3], g: &[u32; 3]) -> bool {
+/// Whether doubles tell that two triangles have nothing in common but what they share by index.
+pub fn surely_apart(coords: &[[f64; 3]], f: &[u32; 3], g: &[u32; 3]) -> bool {
     [(f, g), (g, f)].into_iter().any(|(f, g)| off_plane(coords, f, g) || off_edge(coords, f, g))
 }
 
