@@ -177,7 +177,7 @@ fn every_stage_asks_often() {
     let inputs = [
         ("two spheres", spheres()),
         ("coplanar squares", coplanar(if long() { 200 } else { 40 })),
-        ("needles", needles(60)),
+        ("needles", needles(if long() { 32 } else { 20 })),
     ];
     for (what, soups) in &inputs {
         for threads in [1, 2] {
