@@ -126,6 +126,7 @@ static void cancel(lap_context *context)
     lap_operand two[2];
     stopper s = {0, -1, 0};
     lap_arrangement *a = NULL;
+    int32_t status;
     int all, i;
 
     two[0] = boxed(&b[0], 0, 0, 0, 0);
@@ -140,8 +141,14 @@ static void cancel(lap_context *context)
         s.at = i;
         s.fraction = 0;
         a = (lap_arrangement *)&a;
-        STATUS(LAP_ERR_CANCELLED, lap_arrangement_new(context, 2, two, NULL, &a));
-        CHECK(a == NULL && s.calls == i + 1);
+        status = lap_arrangement_new(context, 2, two, NULL, &a);
+        if (s.calls <= i) {
+            /* On a machine that stalls for long it is asked more often: not so this time. */
+            CHECK(status == LAP_OK && i > 5);
+            STATUS(LAP_OK, lap_arrangement_free(a));
+            continue;
+        }
+        CHECK(status == LAP_ERR_CANCELLED && a == NULL && s.calls == i + 1);
     }
     STATUS_IN(context, LAP_OK, lap_context_set_progress(context, NULL, NULL));
 }

@@ -12,7 +12,7 @@
 use super::patches::{HalfPatch, Patches, Walk};
 use super::{Cells, Resolved, nesting};
 use crate::base::parallel::map_ranges;
-use crate::base::{CellId, Error, FaceId, Result, Run, SharedUnionFind, Status, UnionFind, VertexId};
+use crate::base::{CellId, Error, FaceId, Result, Run, SharedUnionFind, Status, UnionFind, VertexId, Watch};
 use crate::complex::radial::sort_around;
 use crate::complex::{HalfFace, SupportId};
 use crate::exact;
@@ -22,6 +22,8 @@ use std::cmp::Ordering;
 /// Elements in one task at least.
 const LEAST: usize = 1 << 10;
 const BLOCK: usize = 1 << 16;
+/// Fans between two looks at the caller's wish to stop.
+const OFTEN: usize = 64;
 
 /// Joins the sides of patches to cells. Errors: `Cancelled`; `Internal` where resolved faces overlap.
 pub fn cells(r: &Resolved, patches: Patches, run: &mut Run) -> Result<Cells> {
@@ -31,13 +33,17 @@ pub fn cells(r: &Resolved, patches: Patches, run: &mut Run) -> Result<Cells> {
     let mut start = 0;
     while start < patches.fans.len() {
         let block = start..patches.fans.len().min(start + BLOCK);
-        let outcomes = map_ranges(block.len(), LEAST, |range| {
+        let join = |range: std::ops::Range<usize>, watch: &Watch| {
             let mut order = Vec::new();
             for e in block.start + range.start..block.start + range.end {
+                if e % OFTEN == 0 {
+                    watch.check()?;
+                }
                 join_around(r, &patches, e, &mut order, &sets)?;
             }
             Ok(())
-        });
+        };
+        let outcomes = run.watched("cells", 0.8, |watch| map_ranges(block.len(), LEAST, |range| join(range, watch)))?;
         outcomes.into_iter().collect::<Result<()>>()?;
         start = block.end;
         run.tick("cells", 0.8)?;

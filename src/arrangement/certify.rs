@@ -18,10 +18,10 @@
 use super::snap::snap;
 use super::{Arrangement, ArrangementOptions, Extraction, Operand, Selection, arrange, choose, extract};
 use crate::base::union_find::UnionFind;
-use crate::base::{FaceId, OperandId, Result, Run, TriangleId, VertexId};
+use crate::base::{FaceId, OperandId, Result, Run, TriangleId, VertexId, Watch};
 use crate::exact::{self, Point};
-use crate::mesh::bvh::build_bvh;
-use crate::mesh::self_intersection::self_intersections;
+use crate::mesh::bvh::build_bvh_watched;
+use crate::mesh::self_intersection::self_intersections_watched;
 use crate::mesh::validate;
 use std::cmp::Ordering;
 
@@ -35,6 +35,9 @@ const THIN: f64 = 4.0;
 /// at most the distance doubles, and so often at most a round snaps.
 const LEVELS: usize = 4;
 const SNAPS: usize = 8;
+
+/// Corners between two looks at the caller's wish to stop.
+const OFTEN: usize = 16;
 
 /// What the caller decides.
 #[derive(Clone, Copy, Debug)]
@@ -115,8 +118,9 @@ pub fn certify(e: &Extraction, options: &CertifyOptions, run: &mut Run) -> Resul
     let unit = unit(&e.coords);
     let mut best: Option<Found> = None;
     loop {
+        run.tick("certify", 0.0)?;
         tidy(&mut now);
-        let mut found = defects(&now, most + 1);
+        let mut found = run.watched("certify", 0.0, |watch| defects(&now, most + 1, watch))?;
         let level = now.report.rounds.len().saturating_sub(1) / 2;
         let near = if now.report.rounds.is_empty() { 0.0 } else { unit * f64::from(2 << level.min(LEVELS)) };
         let round = Round {
@@ -130,9 +134,9 @@ pub fn certify(e: &Extraction, options: &CertifyOptions, run: &mut Run) -> Resul
             if near == 0.0 || found.contacts.is_empty() || !snapped(&mut now, &found.contacts, near) {
                 break;
             }
-            tidy(&mut now);
-            found = defects(&now, most + 1);
             run.tick("snap", 0.0)?;
+            tidy(&mut now);
+            found = run.watched("snap", 0.0, |watch| defects(&now, most + 1, watch))?;
         }
         let (triangles, contacts, rounds) = (now.triangles.len(), found.contacts.len(), now.report.rounds.len());
         if best.as_ref().is_none_or(|b| contacts < b.contacts.len()) {
@@ -143,15 +147,16 @@ pub fn certify(e: &Extraction, options: &CertifyOptions, run: &mut Run) -> Resul
         }
         let operand = Operand { vertices: &now.coords, triangles: &now.triangles };
         let a = arrange(&[operand], &ArrangementOptions {}, run)?;
+        run.tick("certify", 0.0)?;
         let mut inside = choose(&a, Selection::Resolve)?;
         let mut solid = extract(&a, &inside)?;
-        let mut made = rounded(&a, &solid);
+        let mut made = run.watched("certify", 0.0, |watch| rounded(&a, &solid, watch))?;
         if made.count > 0 {
             let turned = turn_thin_cells(&a, &made.corners, THIN * unit, &mut inside);
             if turned > 0 {
                 now.report.thin_cells += turned;
                 solid = extract(&a, &inside)?;
-                made = rounded(&a, &solid);
+                made = run.watched("certify", 0.0, |watch| rounded(&a, &solid, watch))?;
             }
         }
         now = next(now, &solid);
@@ -247,8 +252,8 @@ struct Found {
     surface: Option<CertifiedSurface>,
 }
 
-/// Triangles without area, rising, and pairs of others in contact, sorted, so many at most.
-fn defects(s: &CertifiedSurface, limit: usize) -> Found {
+/// Triangles without area, rising, and pairs of others in contact, sorted, so many at most. (Told to stop it returns some of them.)
+fn defects(s: &CertifiedSurface, limit: usize, watch: &Watch) -> Found {
     let triangles: Vec<[VertexId; 3]> = s.triangles.iter().map(|t| t.map(|v| VertexId(v as u32))).collect();
     let mut flat = Vec::new();
     validate::degenerate(&s.coords, &triangles, |t| flat.push(TriangleId::of(t)));
@@ -256,8 +261,8 @@ fn defects(s: &CertifiedSurface, limit: usize) -> Found {
     let source: Vec<TriangleId> =
         (0..triangles.len()).map(TriangleId::of).filter(|t| gone.next_if_eq(&t).is_none()).collect();
     let others: Vec<[VertexId; 3]> = source.iter().map(|t| triangles[t.at()]).collect();
-    let tree = build_bvh(&s.coords, &others);
-    let pairs = self_intersections(&s.coords, &others, &tree, limit);
+    let tree = build_bvh_watched(&s.coords, &others, watch);
+    let pairs = self_intersections_watched(&s.coords, &others, &tree, limit, watch);
     let contacts = pairs.into_iter().map(|p| p.map(|t| source[t.at()])).collect();
     Found { flat, contacts, surface: None }
 }
@@ -270,10 +275,14 @@ struct Rounded {
     corners: Vec<bool>,
 }
 
-fn rounded(a: &Arrangement, solid: &Extraction) -> Rounded {
+/// (Told to stop it returns something or other.)
+fn rounded(a: &Arrangement, solid: &Extraction, watch: &Watch) -> Rounded {
     let mut all = Rounded { count: 0, largest: 0.0, corners: vec![false; a.vertex_count()] };
     let input = a.resolved.soup.mesh.vertices.len();
-    for (v, x) in solid.vertices.iter().zip(&solid.coords).filter(|(v, _)| v.at() >= input) {
+    for (i, (v, x)) in solid.vertices.iter().zip(&solid.coords).enumerate().filter(|(_, (v, _))| v.at() >= input) {
+        if i % OFTEN == 0 && !watch.go_on() {
+            break;
+        }
         let (exact, double) = (a.point(*v), Point::Vertex(*x));
         for axis in (0..3).filter(|&i| exact::compare_coordinate(&exact, &double, i) != Ordering::Equal) {
             all.corners[v.at()] = true;

@@ -12,17 +12,18 @@ use super::data::{Carrier, Clusters, Contacts, Graphs, Segment, Soup};
 use super::intersect::dedup_from;
 use super::planar::Plane;
 use super::points;
-use crate::base::{Csr, EdgeId, PlaneId, Result, Run, TriangleId, VertexId};
+use crate::base::{Csr, EdgeId, PlaneId, Result, Run, TriangleId, VertexId, Watch};
 use crate::complex::Origin;
-use crate::mesh::bvh::build_bvh;
+use crate::mesh::bvh::build_bvh_watched;
 use rayon::prelude::*;
 
 /// From so many segments on, pairs are looked for in a hierarchy.
 const MANY: usize = 24;
 /// Clusters in one task at least.
 const LEAST: usize = 16;
-/// Clusters between two looks at the caller's wish to stop.
+/// Clusters whose tasks are given out at once, and pairs of segments between two looks at the caller's wish to stop.
 const CHUNK: usize = 1 << 12;
+const PAIRS: usize = 1 << 7;
 
 /// A vertex on a segment of a cluster: a known one, or one that is yet to get its id.
 #[derive(Clone, Copy)]
@@ -47,8 +48,11 @@ pub fn crossings(soup: &Soup, contacts: Contacts, clusters: &Clusters, run: &mut
     let mut works: Vec<Work> = Vec::with_capacity(count);
     while works.len() < count {
         let chunk = works.len()..count.min(works.len() + CHUNK);
-        let work = |c: usize| find(soup, &contacts, clusters.members.row(c));
-        works.par_extend(chunk.into_par_iter().with_min_len(LEAST).map(work));
+        let fraction = 0.35 + 0.1 * works.len() as f64 / count as f64;
+        run.watched("crossings", fraction, |watch| {
+            let work = |c: usize| find(soup, &contacts, clusters.members.row(c), watch);
+            works.par_extend(chunk.into_par_iter().with_min_len(LEAST).map(work));
+        })?;
         run.tick("crossings", 0.35 + 0.1 * works.len() as f64 / count as f64)?;
     }
     // Soup vertices that touch something may be where segments cross.
@@ -57,15 +61,19 @@ pub fn crossings(soup: &Soup, contacts: Contacts, clusters: &Clusters, run: &mut
     let touching = touching.filter(|v| v.at() < mesh.vertices.len()).map(Origin::Mesh);
     let new = works.iter().flat_map(|w| &w.events).filter(|e| e.known.is_none()).map(|e| e.new);
     let mut origins: Vec<Origin> = touching.chain(new).collect();
+    run.tick("crossings", 0.45)?;
     origins.par_sort_unstable();
     origins.dedup();
+    run.tick("crossings", 0.45)?;
     let Contacts { points, split_edges, edge_points, .. } = contacts;
     let mut graphs = Graphs { points, split_edges, edge_points, ..Graphs::default() };
-    let ids = points::unify(soup, &mut graphs.points, &origins);
+    let ids = run.watched("crossings", 0.45, |watch| points::unify(soup, &mut graphs.points, &origins, watch))?;
     let id = |e: &Event| if e.known.is_some() { e.known } else { ids[origins.partition_point(|o| *o < e.new)] };
-    let piece = |(c, work): (usize, &Work)| pieces(soup, &graphs, clusters.members.row(c), work, id);
-    let parts: Vec<(Vec<[VertexId; 2]>, Vec<VertexId>)> =
-        works.par_iter().with_min_len(LEAST).enumerate().map(piece).collect();
+    let parts: Vec<(Vec<[VertexId; 2]>, Vec<VertexId>)> = run.watched("crossings", 0.45, |watch| {
+        let piece = |(c, work): (usize, &Work)| pieces(soup, &graphs, clusters.members.row(c), work, id, watch);
+        works.par_iter().with_min_len(LEAST).enumerate().map(piece).collect()
+    })?;
+    run.tick("crossings", 0.48)?;
     let (mut rows, mut lone) = (Csr::default(), Csr::default());
     for (p, l) in &parts {
         rows.push_row(p);
@@ -73,11 +81,17 @@ pub fn crossings(soup: &Soup, contacts: Contacts, clusters: &Clusters, run: &mut
     }
     (graphs.pieces, graphs.lone) = (rows, lone);
     run.tick("crossings", 0.5)?;
+    drop(parts);
+    drop(works);
+    run.tick("crossings", 0.5)?;
     Ok(graphs)
 }
 
-/// The segments of a cluster and the vertices on them.
-fn find(soup: &Soup, contacts: &Contacts, members: &[TriangleId]) -> Work {
+/// The segments of a cluster and the vertices on them; told to stop, some of them.
+fn find(soup: &Soup, contacts: &Contacts, members: &[TriangleId], watch: &Watch) -> Work {
+    if !watch.go_on() {
+        return Work::default();
+    }
     let mesh = &*soup.mesh;
     let row = |t: &TriangleId| contacts.segments.row(contacts.cut.partition_point(|c| c < t));
     let mut work = Work { segments: members.iter().flat_map(row).copied().collect(), events: Vec::new() };
@@ -105,12 +119,14 @@ fn find(soup: &Soup, contacts: &Contacts, members: &[TriangleId]) -> Work {
     // (Rounding is monotone: where segments meet, the boxes of their rounded ends do.)
     let places: Vec<[f64; 3]> = all.iter().flat_map(|s| s.ends).map(|v| plane.place(v)).collect();
     let flat: Vec<[VertexId; 3]> = (0..all.len()).map(|i| [2 * i, 2 * i + 1, 2 * i + 1].map(VertexId::of)).collect();
-    build_bvh(&places, &flat).meeting_pairs(|a, b| {
+    let mut asked = 0;
+    build_bvh_watched(&places, &flat, watch).meeting_pairs(|a, b| {
         let (i, j) = (a.at().min(b.at()), a.at().max(b.at()));
         if i < inner {
             meet(&plane, &all, inner, i, j, events);
         }
-        true
+        asked += 1;
+        asked % PAIRS != 0 || watch.go_on()
     });
     work
 }
@@ -217,14 +233,18 @@ fn within(plane: &Plane, s: &Segment, v: VertexId) -> bool {
     order(a, v) == order(v, b)
 }
 
-/// The pieces of a cluster and its vertices on none, sorted.
+/// The pieces of a cluster and its vertices on none, sorted; told to stop, none.
 fn pieces(
     soup: &Soup,
     graphs: &Graphs,
     members: &[TriangleId],
     work: &Work,
     id: impl Fn(&Event) -> VertexId,
+    watch: &Watch,
 ) -> (Vec<[VertexId; 2]>, Vec<VertexId>) {
+    if !watch.go_on() {
+        return Default::default();
+    }
     let mesh = &*soup.mesh;
     let mut on: Vec<(u32, VertexId)> = work.events.iter().map(|e| (e.segment, id(e))).collect();
     on.sort_unstable();
@@ -243,7 +263,7 @@ fn pieces(
         row.clear();
         row.extend(here.iter().map(|e| e.1));
         row.extend([a, b]);
-        if row.len() > 2 {
+        if row.len() > 2 && watch.go_on() {
             let axis = points::open_axis(soup, &graphs.points, a, b);
             row.sort_unstable_by(|&p, &q| points::compare(soup, &graphs.points, p, q, axis));
             dedup_from(&mut row, 0);

@@ -13,16 +13,17 @@ use super::pair::{Sink, meet};
 use super::points;
 use super::sheets;
 use super::stars::flat_stars;
-use crate::base::{EdgeId, PlaneId, Result, Run, TriangleId, VertexId};
+use crate::base::{EdgeId, PlaneId, Result, Run, TriangleId, VertexId, Watch};
 use crate::complex::Origin;
-use crate::mesh::bvh::{NodePair, build_bvh};
+use crate::mesh::bvh::{NodePair, build_bvh_watched};
 use rayon::prelude::*;
 
-/// Triangles for each pair of nodes whose triangles one task intersects, about; and so many tasks between two looks at whether the
-/// caller wants to stop.
+/// Triangles for each pair of nodes whose triangles one task intersects, about; so many tasks whose findings are put together at once; and so many
+/// pairs of triangles between two looks at whether the caller wants to stop.
 const PART: usize = 1 << 9;
 const AT_ONCE: usize = 1 << 9;
-/// Looks of planes at triangles between two such looks.
+const PAIRS: u64 = 1 << 7;
+/// Looks of planes at triangles between two looks of that kind.
 const SHEETS: usize = 1 << 22;
 
 /// What pairs told.
@@ -59,36 +60,44 @@ impl Found {
 pub fn intersect(soup: &Soup, run: &mut Run) -> Result<Contacts> {
     run.stage("candidates", 0.1)?;
     let mesh = &*soup.mesh;
-    let tree = build_bvh(&mesh.vertices, &mesh.triangles);
+    let tree = run.watched("candidates", 0.1, |watch| build_bvh_watched(&mesh.vertices, &mesh.triangles, watch))?;
     run.stage("intersect", 0.15)?;
     let stars = flat_stars(mesh);
     run.tick("intersect", 0.16)?;
     let mut found = Found::default();
-    let decide = |&pair: &NodePair| {
+    let decide = |&pair: &NodePair, watch: &Watch| {
         let mut part = Found::default();
+        let mut asked = 0;
         tree.meeting_pairs_below(pair, |a, b| {
-            if !soup.is_passive(a)
-                && !soup.is_passive(b)
-                && !stars.settle(&mesh.triangles[a.at()], &mesh.triangles[b.at()])
+            if soup.is_passive(a)
+                || soup.is_passive(b)
+                || stars.settle(&mesh.triangles[a.at()], &mesh.triangles[b.at()])
             {
-                part.pairs += meet(mesh, a.min(b), a.max(b), &mut part) as u64;
+                return true;
             }
+            part.pairs += meet(mesh, a.min(b), a.max(b), &mut part) as u64;
+            asked += 1;
+            asked % PAIRS != 0 || watch.go_on()
         });
         part
     };
-    for pairs in tree.node_pairs(mesh.triangles.len() / PART).chunks(AT_ONCE) {
-        if rayon::current_num_threads() == 1 {
-            pairs.iter().for_each(|pair| found.add(decide(pair)));
-        } else {
-            let parts: Vec<Found> = pairs.par_iter().with_max_len(1).map(decide).collect();
-            parts.into_iter().for_each(|part| found.add(part));
-        }
+    let pairs = tree.node_pairs(mesh.triangles.len() / PART);
+    for pairs in pairs.chunks(AT_ONCE) {
+        run.watched("intersect", 0.2, |watch| {
+            if rayon::current_num_threads() == 1 {
+                pairs.iter().take_while(|_| watch.go_on()).for_each(|pair| found.add(decide(pair, watch)));
+            } else {
+                let decide = |pair| if watch.go_on() { decide(pair, watch) } else { Found::default() };
+                let parts: Vec<Found> = pairs.par_iter().with_max_len(1).map(decide).collect();
+                parts.into_iter().for_each(|part| found.add(part));
+            }
+        })?;
         run.tick("intersect", 0.2)?;
     }
     drop(tree);
     meet_sheets(soup, &mut found, run)?;
     run.tick("intersect", 0.3)?;
-    Ok(gather(soup, found))
+    run.watched("intersect", 0.3, |watch| gather(soup, found, watch))
 }
 
 /// Intersects the planes of half-spaces with all triangles and with one another.
@@ -118,7 +127,8 @@ fn meet_sheets(soup: &Soup, found: &mut Found, run: &mut Run) -> Result<()> {
     Ok(())
 }
 
-fn gather(soup: &Soup, mut found: Found) -> Contacts {
+/// (Told to stop it returns something or other.)
+fn gather(soup: &Soup, mut found: Found, watch: &Watch) -> Contacts {
     let mesh = &*soup.mesh;
     found.on_edges.par_sort_unstable();
     found.on_edges.dedup();
@@ -130,7 +140,10 @@ fn gather(soup: &Soup, mut found: Found) -> Contacts {
     origins.par_sort_unstable();
     origins.dedup();
     let mut points = Points::default();
-    let ids = points::unify(soup, &mut points, &origins);
+    let ids = points::unify(soup, &mut points, &origins, watch);
+    if !watch.go_on() {
+        return Contacts::default();
+    }
     let id = |o: &Origin| ids[origins.partition_point(|p| p < o)];
     let mut contacts = Contacts { pair_count: found.pairs, overlaps: found.overlaps, ..Contacts::default() };
     for row in found.on_edges.chunk_by(|a, b| a.0 == b.0) {

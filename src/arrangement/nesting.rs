@@ -23,7 +23,7 @@ use super::Resolved;
 use super::cells::overlap;
 use super::patches::Patches;
 use crate::base::parallel::{concat, map_ranges};
-use crate::base::{Error, FaceId, Result, Run, SharedUnionFind, Status};
+use crate::base::{Error, FaceId, Result, Run, SharedUnionFind, Status, Watch};
 use crate::complex::HalfFace;
 use crate::exact::{self, Plane, Sign, Support};
 use crate::mesh::projection::{ROUNDOFF, TINY};
@@ -39,8 +39,9 @@ const SEEN: [usize; 2] = [1, 2];
 const FIRST: usize = 16;
 const GROWTH: usize = 8;
 
-/// Faces in one task at least.
+/// Faces in one task at least, and between two looks at the caller's wish to stop.
 const LEAST: usize = 1 << 14;
+const OFTEN: usize = 1 << 10;
 
 /// A line parallel to the axis through a point of a face.
 struct Line {
@@ -72,6 +73,19 @@ pub fn join(
     run: &mut Run,
 ) -> Result<()> {
     let start = starts(r, patches, component, count)?;
+    run.watched("nesting", 0.87, |watch| join_all(r, patches, component, &start, sets, watch))?
+}
+
+/// [`join`] from the lowest face of each component. Told to stop it returns any error.
+fn join_all(
+    r: &Resolved,
+    patches: &Patches,
+    component: &[u32],
+    start: &[FaceId],
+    sets: &SharedUnionFind,
+    watch: &Watch,
+) -> Result<()> {
+    let count = start.len();
     let margins = margins(r);
     let mut served = vec![false; count];
     let (mut again, mut next, mut size): (Vec<Line>, usize, usize) = (Vec::new(), 0, FIRST);
@@ -79,11 +93,13 @@ pub fn join(
         // Components are taken in order; a line that was of no use comes again with the next k.
         let mut lines: Vec<Line> = Vec::new();
         for line in again.drain(..) {
+            watch.check()?;
             if !served[line.component as usize] {
                 lines.push(Line::new(r, line.component, line.face, line.k + 1)?);
             }
         }
         while next < count && lines.len() < size {
+            watch.check()?;
             if !served[next] {
                 lines.push(Line::new(r, next as u32, start[next], 2)?);
             }
@@ -92,10 +108,12 @@ pub fn join(
         if lines.is_empty() {
             return Ok(());
         }
-        let mut hits = scan(r, patches, &lines, &margins);
+        let mut hits = scan(r, patches, &lines, &margins, watch);
+        watch.check()?;
         hits.sort_unstable();
         let mut met = hits.chunk_by(|a, b| a.line == b.line);
         for (i, line) in lines.into_iter().enumerate() {
+            watch.check()?;
             let own = HalfFace::new(line.face, true).0 | 1;
             match met.next() {
                 Some([hit, ..]) if hit.line as usize == i && hit.code == DEGENERATE => again.push(line),
@@ -113,7 +131,6 @@ pub fn join(
                 _ => return Err(Error::new(Status::Internal, "a line misses the face that it goes through")),
             }
         }
-        run.tick("nesting", 0.87)?;
         size = size.saturating_mul(GROWTH);
     }
 }
@@ -214,12 +231,15 @@ impl Strips {
     }
 }
 
-/// All crossings of lines with faces that divide, in no particular order.
-fn scan(r: &Resolved, patches: &Patches, lines: &[Line], margins: &[f64; 2]) -> Vec<Hit> {
+/// All crossings of lines with faces that divide, in no particular order; told to stop, some of them.
+fn scan(r: &Resolved, patches: &Patches, lines: &[Line], margins: &[f64; 2], watch: &Watch) -> Vec<Hit> {
     let strips = Strips::new(lines);
     let found = map_ranges(r.faces.len(), LEAST, |range| {
         let mut hits = Vec::new();
         for f in range {
+            if f % OFTEN == 0 && !watch.go_on() {
+                break;
+            }
             let q = r.faces[f].map(|v| {
                 let x = r.coords(v);
                 [x[SEEN[0]], x[SEEN[1]]]

@@ -19,7 +19,7 @@ use super::{Multiplicity, Operand, Resolved};
 use crate::base::parallel::map_ranges;
 use crate::base::{
     Csr, Culprit, DefectKind, EdgeId, Error, FaceId, OperandId, PatchId, Result, Run, SharedUnionFind, Status,
-    TriangleId, UnionFind, VertexId,
+    TriangleId, UnionFind, VertexId, Watch,
 };
 use crate::complex::HalfFace;
 use crate::mesh::EdgeUse;
@@ -272,29 +272,37 @@ impl Found {
     }
 }
 
-/// Edges in one task at least, and between two looks at whether the caller wants to stop.
+/// Edges in one task at least, and edges whose findings are put together at once.
 const LEAST: usize = 1 << 14;
 const BLOCK: usize = 1 << 21;
+/// Edges between two looks at the caller's wish to stop.
+const OFTEN: usize = 1 << 10;
 
 /// Joins faces to patches. Errors: `Cancelled`.
 pub fn patches(r: &Resolved, run: &mut Run) -> Result<Patches> {
     let faces = Faces::new(r);
+    run.tick("patches", 0.7)?;
     let mesh = &r.soup.mesh;
     let parts = edge_table(r.vertex_count(), &r.faces[r.whole..]);
+    run.tick("patches", 0.7)?;
     let places = soup_edges(r, &parts);
     // Edges of the soup that are among those of the parts.
     let mut taken = vec![0u64; mesh.edges.len().div_ceil(64)];
     places.iter().filter(|e| e.is_some()).for_each(|e| taken[e.at() / 64] |= 1 << (e.at() % 64));
     let sheets = SharedUnionFind::new(r.faces.len());
+    run.tick("patches", 0.7)?;
     let mut found = Vec::new();
     let mut start = 0;
     while start < mesh.edges.len() {
         let block = start..mesh.edges.len().min(start + BLOCK);
-        found.extend(map_ranges(block.len(), LEAST, |range| {
+        let look = |range: Range<usize>, watch: &Watch| {
             let mut found = Found::default();
             let mut walks = Vec::new();
             let mut near = Near::new(&r.soup.first_triangle);
             for e in block.start + range.start..block.start + range.end {
+                if e % OFTEN == 0 && !watch.go_on() {
+                    break;
+                }
                 if taken[e / 64] >> (e % 64) & 1 != 0 {
                     continue;
                 }
@@ -314,18 +322,23 @@ pub fn patches(r: &Resolved, run: &mut Run) -> Result<Patches> {
                 found.edge(&faces, mesh.edges[e], &mut walks, &sheets);
             }
             found
-        }));
+        };
+        let watched = |watch: &Watch| map_ranges(block.len(), LEAST, |range| look(range, watch));
+        found.extend(run.watched("patches", 0.7, watched)?);
         start = block.end;
         run.tick("patches", 0.7)?;
     }
     let mut start = 0;
     while start < parts.edges.len() {
         let block = start..parts.edges.len().min(start + BLOCK);
-        found.extend(map_ranges(block.len(), LEAST, |range| {
+        let look = |range: Range<usize>, watch: &Watch| {
             let mut found = Found::default();
             let mut walks = Vec::new();
             let edges = block.start + range.start..block.start + range.end;
             for (e, &place) in edges.clone().zip(&places[edges]) {
+                if e % OFTEN == 0 && !watch.go_on() {
+                    break;
+                }
                 walks.clear();
                 if place.is_some() {
                     walks_of_soup(&faces, mesh.edge_uses.row(place), &mut walks);
@@ -335,7 +348,9 @@ pub fn patches(r: &Resolved, run: &mut Run) -> Result<Patches> {
                 found.edge(&faces, parts.edges[e], &mut walks, &sheets);
             }
             found
-        }));
+        };
+        let watched = |watch: &Watch| map_ranges(block.len(), LEAST, |range| look(range, watch));
+        found.extend(run.watched("patches", 0.72, watched)?);
         start = block.end;
         run.tick("patches", 0.72)?;
     }
@@ -344,7 +359,9 @@ pub fn patches(r: &Resolved, run: &mut Run) -> Result<Patches> {
     let sheet_sides = |count: usize, of: &[u32]| sides(count, of, unlike.clone());
     let (of, lowest) = sheets.labels(|f| faces.divides(FaceId::of(f)));
     drop(sheets);
+    run.tick("patches", 0.75)?;
     let (sheet_side, first_sheets) = sheet_sides(lowest.len(), &of)?;
+    run.tick("patches", 0.75)?;
     let behind = of.into_par_iter().with_min_len(LEAST).map(|s| match s {
         u32::MAX => HalfPatch::NONE,
         s => sheet_side[s as usize],
@@ -356,6 +373,7 @@ pub fn patches(r: &Resolved, run: &mut Run) -> Result<Patches> {
         faces.each_net(f, |m| multiplicity.items.push(m));
         multiplicity.end_row();
     }
+    run.tick("patches", 0.75)?;
     let mut unbalanced: Vec<Unbalanced> = found.iter().flat_map(|f| &f.unbalanced).copied().collect();
     unbalanced.sort_unstable();
     let fan_ends = found.iter().flat_map(|f| &f.fan_ends).copied().collect();

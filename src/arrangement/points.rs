@@ -6,7 +6,7 @@
 //! Cost: n log n comparisons of doubles; a microsecond for each exact one.
 
 use super::data::{Points, Soup};
-use crate::base::VertexId;
+use crate::base::{VertexId, Watch};
 use crate::complex::Origin;
 use crate::exact;
 use rayon::prelude::*;
@@ -14,8 +14,8 @@ use std::cmp::Ordering;
 
 /// Gives ids to points: soup vertices keep theirs, known points too, and of new ones that are equal the least origin stands for all.
 ///
-/// `origins`: sorted, each once. Returns the id of each.
-pub fn unify(soup: &Soup, points: &mut Points, origins: &[Origin]) -> Vec<VertexId> {
+/// `origins`: sorted, each once. Returns the id of each. (Told to stop it returns something or other.)
+pub fn unify(soup: &Soup, points: &mut Points, origins: &[Origin], watch: &Watch) -> Vec<VertexId> {
     let first = soup.mesh.vertices.len();
     /// A place with its name: an id, or the number of a new origin.
     struct Entry {
@@ -25,13 +25,17 @@ pub fn unify(soup: &Soup, points: &mut Points, origins: &[Origin]) -> Vec<Vertex
     }
     let rounded = |origin: &Origin| match *origin {
         Origin::Mesh(v) => soup.mesh.vertices[v.at()],
-        _ => exact::round(&soup.point(*origin)),
+        _ if watch.go_on() => exact::round(&soup.point(*origin)),
+        _ => [0.0; 3],
     };
     let entry = |(i, origin): (usize, &Origin)| {
         let id = if let Origin::Mesh(v) = *origin { v } else { VertexId::NONE };
         Entry { at: rounded(origin), id, new: i as u32 }
     };
     let mut entries: Vec<Entry> = origins.par_iter().with_min_len(64).enumerate().map(entry).collect();
+    if !watch.go_on() {
+        return Vec::new();
+    }
     let known = points.coords.iter().enumerate();
     entries.extend(known.map(|(i, &at)| Entry { at, id: VertexId::of(first + i), new: u32::MAX }));
     // Within a place those with ids first, then new ones by origin.
@@ -46,7 +50,7 @@ pub fn unify(soup: &Soup, points: &mut Points, origins: &[Origin]) -> Vec<Vertex
     // The entry that stands for each new origin.
     let mut leaders: Vec<(u32, u32)> = Vec::new();
     let mut start = 0;
-    while start < entries.len() {
+    while start < entries.len() && (start % 64 != 0 || watch.go_on()) {
         let end = start + entries[start..].iter().take_while(|e| e.at == entries[start].at).count();
         for i in start..end {
             let e = &entries[i];

@@ -10,14 +10,14 @@ use super::data::{Birth, Clusters, Graphs, Resolved, Soup};
 use super::planar::Plane;
 use super::points;
 use super::triangulate::{NONE, Triangulation, Vertices, curve_order, triangulate};
-use crate::base::{Csr, Error, FaceId, Result, Run, TriangleId, VertexId};
+use crate::base::{Csr, Error, FaceId, Result, Run, TriangleId, VertexId, Watch};
 use crate::exact::{self, Point, Sign};
 use crate::mesh::projection::seen_along;
 use rayon::prelude::*;
 
 /// Clusters in one task at least.
 const LEAST: usize = 8;
-/// Clusters between two looks at the caller's wish to stop.
+/// Clusters whose tasks are given out at once.
 const CHUNK: usize = 1 << 10;
 
 /// A part of a cluster: its corners, positive in the plane of the cluster's first member, and the members that hold it.
@@ -33,12 +33,17 @@ pub fn resolve(soup: Soup, graphs: Graphs, clusters: &Clusters, pair_count: u64,
     let mut all: Vec<Parts> = Vec::with_capacity(count);
     while all.len() < count {
         let chunk = all.len()..count.min(all.len() + CHUNK);
-        let part = |c: usize| parts(&soup, &graphs, clusters.members.row(c), graphs.pieces.row(c), graphs.lone.row(c));
-        let made: Vec<Result<Parts>> = chunk.into_par_iter().with_min_len(LEAST).map(part).collect();
+        let fraction = |done: usize| 0.5 + 0.1 * done as f64 / count as f64;
+        let made: Vec<Result<Parts>> = run.watched("triangulate", fraction(all.len()), |watch| {
+            let part = |c: usize| {
+                parts(&soup, &graphs, clusters.members.row(c), graphs.pieces.row(c), graphs.lone.row(c), watch)
+            };
+            chunk.into_par_iter().with_min_len(LEAST).map(part).collect()
+        })?;
         for part in made {
             all.push(part?);
         }
-        run.tick("triangulate", 0.5 + 0.1 * all.len() as f64 / count as f64)?;
+        run.tick("triangulate", fraction(all.len()))?;
     }
     run.stage("resolve", 0.6)?;
     let mesh = &*soup.mesh;
@@ -116,13 +121,16 @@ impl Vertices for Local<'_> {
     }
 }
 
+/// Told to stop it returns any error.
 fn parts(
     soup: &Soup,
     graphs: &Graphs,
     members: &[TriangleId],
     pieces: &[[VertexId; 2]],
     lone: &[VertexId],
+    watch: &Watch,
 ) -> Result<Parts> {
+    watch.check()?;
     let mesh = &*soup.mesh;
     // Of a sheet: none.
     let corners = mesh.triangles.get(members[0].at()).copied();
@@ -152,7 +160,7 @@ fn parts(
         let start = [corners.map(number)];
         local = Local { plane, vertices: vertices.clone(), places, frame: Vec::new() };
         let order = curve_order(&local, (0..count).filter(|v| !start[0].contains(v)));
-        made = triangulate(&local, count as usize, (&start, &[[NONE; 3]]), &order, &local_pieces)?;
+        made = triangulate(&local, count as usize, (&start, &[[NONE; 3]]), &order, &local_pieces, watch)?;
     } else {
         let frame = frame_around(&places);
         let as_point = |p: &[f64; 2]| {
@@ -167,7 +175,7 @@ fn parts(
         let [a, b, c, d] = [count, count + 1, count + 2, count + 3];
         let start = ([[a, b, c], [a, c, d]], [[NONE, NONE, 1], [0, NONE, NONE]]);
         let order = curve_order(&local, 0..count);
-        made = triangulate(&local, count as usize + 4, (&start.0, &start.1), &order, &local_pieces)?;
+        made = triangulate(&local, count as usize + 4, (&start.0, &start.1), &order, &local_pieces, watch)?;
     }
     debug_assert_eq!(made.check(&local), Ok(()));
     let all = |t: usize| made.corners[t].map(|v| vertices[v as usize]);
@@ -175,7 +183,7 @@ fn parts(
         let births = Csr::from_pairs(made.corners.len(), (0..made.corners.len()).map(|i| (i, members[0])));
         return Ok(Parts { corners: (0..made.corners.len()).map(all).collect(), births });
     }
-    let held = flood(soup, graphs, members, &made, &vertices, plane.axis, plane.orientation)?;
+    let held = flood(soup, graphs, members, &made, &vertices, &plane, watch)?;
     let mut parts = Parts { corners: Vec::new(), births: Csr::default() };
     for t in 0..made.corners.len() {
         let row = held.row(t);
@@ -216,8 +224,8 @@ fn flood(
     members: &[TriangleId],
     made: &Triangulation,
     vertices: &[VertexId],
-    axis: usize,
-    orientation: Sign,
+    plane: &Plane,
+    watch: &Watch,
 ) -> Result<Csr<TriangleId>> {
     let mesh = &*soup.mesh;
     let number = |v: VertexId| vertices.partition_point(|w| *w < v) as u32;
@@ -234,6 +242,7 @@ fn flood(
     let (mut stack, mut row) = (Vec::new(), Vec::new());
     let mut inside: Vec<bool> = Vec::new();
     for (round, &m) in members.iter().enumerate() {
+        watch.check()?;
         let round = round as u32 + 1;
         if soup.sheet(m).is_some() {
             // The outline is where the box is: a triangle is in it with its corners, or not.
@@ -244,7 +253,7 @@ fn flood(
             held.extend(made.corners.iter().enumerate().filter(|(_, c)| within(c)).map(|(t, _)| (t, m)));
             continue;
         }
-        let same = soup.turn_along(m, axis) == orientation;
+        let same = soup.turn_along(m, plane.axis) == plane.orientation;
         let corners = mesh.triangles[m.at()];
         for (e, from) in mesh.triangle_edges[m.at()].into_iter().zip(corners) {
             let ends = mesh.edges[e.at()];

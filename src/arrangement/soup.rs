@@ -29,6 +29,7 @@ pub fn soup(operands: &[Operand], run: &mut Run) -> Result<Soup> {
     let first_vertex = offsets(operands.iter().map(|o| o.vertices.len()), MAX_VERTICES, "vertices")?;
     let first_input = offsets(operands.iter().map(|o| o.triangles.len()), MAX_TRIANGLES, "triangles")?;
     validated(operands, &first_vertex, &first_input)?;
+    run.tick("soup", 0.0)?;
     let count = *first_vertex.last().unwrap_or(&0) as usize;
     let mut positions: Vec<[f64; 3]> = Vec::with_capacity(count);
     for o in operands {
@@ -36,6 +37,7 @@ pub fn soup(operands: &[Operand], run: &mut Run) -> Result<Soup> {
     }
     // The lowest vertex of those at one position stands for all.
     let pairs = validate::duplicates(&positions, |_| true);
+    run.tick("soup", 0.0)?;
     let mut number: Vec<u32> = (0..count as u32).collect();
     pairs.iter().for_each(|&[lowest, other]| number[other as usize] = lowest);
     let mut triangles: Vec<[VertexId; 3]> = Vec::with_capacity(*first_input.last().unwrap_or(&0) as usize);
@@ -45,6 +47,7 @@ pub fn soup(operands: &[Operand], run: &mut Run) -> Result<Soup> {
     }
     let mut without_area = Vec::new();
     validate::degenerate(&positions, &triangles, |t| without_area.push(t));
+    run.tick("soup", 0.0)?;
     let mut gone = without_area.iter().copied().peekable();
     let mut source = Vec::with_capacity(triangles.len() - without_area.len());
     let (mut first_triangle, mut dropped) = (vec![0], Vec::with_capacity(operands.len()));
@@ -61,7 +64,9 @@ pub fn soup(operands: &[Operand], run: &mut Run) -> Result<Soup> {
         next.next_if_eq(&(at - 1)).is_none()
     });
     let (vertices, vertex_source) = number_used(positions, &mut triangles);
+    run.tick("soup", 0.0)?;
     let table = edge_table(vertices.len(), &triangles);
+    run.tick("soup", 0.0)?;
     let mesh = TriMesh {
         bbox: bounding_box(&vertices),
         vertices,

@@ -9,9 +9,12 @@
 //! Pieces have no vertices inside and do not cross, so flips bring every piece in.
 //! Cost: vertices are inserted along a space-filling curve, so n log n for the sort and nearly linear for the rest.
 
-use crate::base::Error;
+use crate::base::{Error, Watch};
 use crate::exact::Sign;
 use std::collections::VecDeque;
+
+/// Vertices, and pieces, between two looks at the caller's wish to stop.
+const OFTEN: usize = 32;
 
 /// No neighbour.
 pub const NONE: u32 = u32::MAX;
@@ -44,13 +47,14 @@ fn contradiction() -> Error {
 }
 
 /// Triangulates: `start` are triangles that cover all `count` vertices and fit one another, as in [`Triangulation`]; `order` the other vertices in
-/// a good order of insertion; `pieces` edges that have to be there.
+/// a good order of insertion; `pieces` edges that have to be there. Told to stop it returns any error.
 pub fn triangulate(
     vertices: &impl Vertices,
     count: usize,
     start: (&[[u32; 3]], &[[u32; 3]]),
     order: &[u32],
     pieces: &[[u32; 2]],
+    watch: &Watch,
 ) -> Result<Triangulation, Error> {
     let mut t = Triangulation {
         corners: start.0.to_vec(),
@@ -63,11 +67,14 @@ pub fn triangulate(
     for (i, corners) in start.0.iter().enumerate() {
         corners.iter().for_each(|&v| t.at[v as usize] = i as u32);
     }
+    let look = |i: usize| if i % OFTEN == OFTEN - 1 { watch.check() } else { Ok(()) };
     let mut last = 0;
-    for &v in order {
+    for (i, &v) in order.iter().enumerate() {
+        look(i)?;
         last = t.insert(vertices, v, last)?;
     }
-    for &[a, b] in pieces {
+    for (i, &[a, b]) in pieces.iter().enumerate() {
+        look(i)?;
         t.force(vertices, a, b)?;
     }
     Ok(t)

@@ -15,5 +15,5 @@ pub mod union_find;
 pub use csr::Csr;
 pub use error::{Culprit, DefectKind, Error, Result, Status};
 pub use ids::*;
-pub use run::Run;
+pub use run::{Run, Watch};
 pub use union_find::{SharedUnionFind, UnionFind};

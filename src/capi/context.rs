@@ -171,7 +171,7 @@ impl State {
             scope.spawn(move |_| {
                 let (progress_notes, log_notes) = (notes.clone(), notes);
                 // A closed channel means that the calling thread is gone: stop.
-                let mut progress = |stage: &'static str, fraction: f64| {
+                let mut progress = move |stage: &'static str, fraction: f64| {
                     progress_notes.send(Note::Progress(stage, fraction)).is_ok() && answers.recv().unwrap_or(false)
                 };
                 let mut log = |message: &str| {

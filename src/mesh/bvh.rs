@@ -13,7 +13,7 @@
 //! Cost: building n log n (a sort of integers); a query as usual, logarithmic plus its answers. The result depends on
 //! coordinates and ids only.
 
-use crate::base::{TriangleId, VertexId};
+use crate::base::{TriangleId, VertexId, Watch};
 
 /// Triangles per leaf.
 const LEAF: usize = 4;
@@ -70,6 +70,14 @@ pub struct Bvh {
 
 /// Builds the hierarchy over all `triangles`. Coordinates are finite.
 pub fn build_bvh(vertices: &[[f64; 3]], triangles: &[[VertexId; 3]]) -> Bvh {
+    build_bvh_watched(vertices, triangles, &Watch::quiet())
+}
+
+/// Triangles between two looks at the caller's wish to stop.
+const OFTEN: usize = 1 << 13;
+
+/// The same; told to stop it returns a hierarchy of nothing.
+pub fn build_bvh_watched(vertices: &[[f64; 3]], triangles: &[[VertexId; 3]], watch: &Watch) -> Bvh {
     let n = triangles.len();
     let (mut lo, mut hi) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
     for v in triangles.iter().flatten() {
@@ -87,6 +95,9 @@ pub fn build_bvh(vertices: &[[f64; 3]], triangles: &[[VertexId; 3]]) -> Bvh {
     }
     let mut keys = Vec::with_capacity(n);
     for (t, corners) in triangles.iter().enumerate() {
+        if t % OFTEN == 0 && !watch.go_on() {
+            return bvh;
+        }
         let mut bounds = Box32::NOTHING;
         for v in corners {
             let x = bvh.map(&vertices[v.at()]);
@@ -96,8 +107,14 @@ pub fn build_bvh(vertices: &[[f64; 3]], triangles: &[[VertexId; 3]]) -> Bvh {
         bvh.boxes.push(bounds);
     }
     keys.sort_unstable();
+    if !watch.go_on() {
+        return bvh;
+    }
     bvh.boxes = keys.iter().map(|&(_, t)| bvh.boxes[t as usize]).collect();
     bvh.ids = keys.iter().map(|&(_, t)| TriangleId(t)).collect();
+    if !watch.go_on() {
+        return bvh;
+    }
     split(&keys, &mut bvh);
     for i in (0..bvh.nodes.len()).rev() {
         let node = bvh.nodes[i];
@@ -255,16 +272,9 @@ impl Bvh {
         }
     }
 
-    /// Those of [`Bvh::meeting_pairs`] that are below a pair of nodes.
-    pub fn meeting_pairs_below(&self, pair: NodePair, mut visit: impl FnMut(TriangleId, TriangleId)) {
-        self.pairs_among(
-            vec![pair],
-            |_, _| true,
-            |a, b| {
-                visit(a, b);
-                true
-            },
-        );
+    /// Those of [`Bvh::meeting_pairs`] that are below a pair of nodes, until `visit` returns false.
+    pub fn meeting_pairs_below(&self, pair: NodePair, visit: impl FnMut(TriangleId, TriangleId) -> bool) {
+        self.pairs_among(vec![pair], |_, _| true, visit);
     }
 
     fn root_pair(&self) -> Vec<NodePair> {

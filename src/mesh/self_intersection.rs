@@ -15,10 +15,13 @@
 
 use super::bvh::Bvh;
 use super::projection::{certain_turn, largest_axis, open_axis, seen_along, turn};
-use crate::base::{TriangleId, VertexId};
+use crate::base::{TriangleId, VertexId, Watch};
 use crate::exact::{Sign, orient3d};
 
 type Corners = [[f64; 3]; 3];
+
+/// Pairs between two looks at the caller's wish to stop.
+const OFTEN: usize = 1 << 8;
 
 /// The pairs of triangles in contact, lower id first, sorted. Stops at `limit` pairs (which ones is fixed by the input, but
 /// they need not be the lowest).
@@ -28,7 +31,18 @@ pub fn self_intersections(
     bvh: &Bvh,
     limit: usize,
 ) -> Vec<[TriangleId; 2]> {
-    let mut found = Vec::new();
+    self_intersections_watched(vertices, triangles, bvh, limit, &Watch::quiet())
+}
+
+/// The same; told to stop it returns some of them.
+pub fn self_intersections_watched(
+    vertices: &[[f64; 3]],
+    triangles: &[[VertexId; 3]],
+    bvh: &Bvh,
+    limit: usize,
+    watch: &Watch,
+) -> Vec<[TriangleId; 2]> {
+    let (mut found, mut asked) = (Vec::new(), 0);
     if limit == 0 {
         return found;
     }
@@ -36,7 +50,8 @@ pub fn self_intersections(
         if contact(vertices, &triangles[a.at()], &triangles[b.at()]) {
             found.push([a.min(b), a.max(b)]);
         }
-        found.len() < limit
+        asked += 1;
+        found.len() < limit && (asked % OFTEN != 0 || watch.go_on())
     });
     found.sort_unstable();
     found
