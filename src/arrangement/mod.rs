@@ -2,7 +2,7 @@
 //! extraction from it (the Mesh Arrangements paper, DESIGN §6).
 //!
 //! Stages in pipeline order: [`soup`] → [`intersect`] (with [`stars`], [`pair`], [`points`]) → [`clusters`] → [`crossings`] → [`triangulate`] →
-//! [`resolve`] → [`patches`] → [`cells`] (with [`nesting`]) → [`winding`] → [`extract`] (→ [`certify`], with [`snap`]).
+//! [`resolve`] → [`patches`] → [`cells`] (with [`nesting`]) → [`winding`] → [`extract`] (→ [`certify`], with [`flatten`], [`slabs`] and [`snap`]).
 
 pub mod cells;
 pub mod certify;
@@ -10,6 +10,7 @@ pub mod clusters;
 pub mod crossings;
 pub mod data;
 pub mod extract;
+pub mod flatten;
 pub mod intersect;
 pub mod nesting;
 pub mod pair;
@@ -17,6 +18,7 @@ pub mod patches;
 pub mod planar;
 pub mod points;
 pub mod resolve;
+pub mod slabs;
 pub mod snap;
 pub mod soup;
 pub mod stars;

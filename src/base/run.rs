@@ -8,6 +8,8 @@ use std::time::Instant;
 pub struct Run<'a> {
     progress: Option<&'a mut (dyn FnMut(&'static str, f64) -> bool + 'a)>,
     log: Option<&'a mut (dyn FnMut(&str) + 'a)>,
+    /// The part of the whole call that fractions are of now.
+    part: [f64; 2],
     stages: Vec<(&'static str, f64)>,
     open: Option<(&'static str, Instant)>,
 }
@@ -15,14 +17,14 @@ pub struct Run<'a> {
 impl<'a> Run<'a> {
     /// Reports to nobody.
     pub fn quiet() -> Self {
-        Self { progress: None, log: None, stages: Vec::new(), open: None }
+        Self::new(None, None)
     }
 
     pub fn new(
         progress: Option<&'a mut (dyn FnMut(&'static str, f64) -> bool + 'a)>,
         log: Option<&'a mut (dyn FnMut(&str) + 'a)>,
     ) -> Self {
-        Self { progress, log, stages: Vec::new(), open: None }
+        Self { progress, log, part: [0.0, 1.0], stages: Vec::new(), open: None }
     }
 
     /// Ends the running stage, starts the next, and tells the progress sink. `fraction` is of the whole call.
@@ -32,10 +34,15 @@ impl<'a> Run<'a> {
         self.tick(name, fraction)
     }
 
+    /// Fractions from here on are of this part of the whole call, until it is set again: for what repeats other operations.
+    pub fn set_part(&mut self, part: [f64; 2]) {
+        self.part = part;
+    }
+
     /// Progress within a stage; an error if the caller wants to stop.
     pub fn tick(&mut self, name: &'static str, fraction: f64) -> Result<()> {
         if let Some(progress) = self.progress.as_mut()
-            && !progress(name, fraction)
+            && !progress(name, self.part[0] + fraction * (self.part[1] - self.part[0]))
         {
             return Err(Error::new(Status::Cancelled, format!("cancelled by the caller in stage {name}")));
         }
