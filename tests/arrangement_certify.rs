@@ -1,12 +1,15 @@
 //! Booleans on certified doubles.
 
 use lapidary::arrangement::certify::{CertifiedSurface, CertifyOptions, certify};
+use lapidary::arrangement::flatten::flatten;
+use lapidary::arrangement::slabs::slabs;
 use lapidary::arrangement::{
     Arrangement, ArrangementOptions, Extraction, Operand, Selection, arrange, choose, extract, volumes,
 };
 use lapidary::base::{Run, TriangleId, VertexId};
 use lapidary::complex::exact_values::volume_of_triangles;
-use lapidary::mesh::self_intersection::contact;
+use lapidary::mesh::bvh::build_bvh;
+use lapidary::mesh::self_intersection::{contact, self_intersections};
 use rug::Rational;
 use std::time::Instant;
 
@@ -84,6 +87,35 @@ fn area([a, b, c]: [[f64; 3]; 3]) -> f64 {
     let side = |p: [f64; 3], i: usize| p[i] - a[i];
     let part = |i: usize, j: usize| side(b, i) * side(c, j) - side(b, j) * side(c, i);
     0.5 * (part(0, 1).powi(2) + part(1, 2).powi(2) + part(2, 0).powi(2)).sqrt()
+}
+
+/// What flattening proposes is closed, on fewer triangles in contact, and the parts that it takes are what they say.
+#[test]
+fn flattened() {
+    let turn = rotation(&mut Random(5));
+    let [a, b] = [[0.0; 3], [0.5, 0.25, 0.0]].map(|shift| moved(&grid_cube(5, shift, 1.0), turn, 1.0, [0.0; 3]));
+    let arrangement = arranged(&[&a, &b]);
+    let e = extract(&arrangement, &choose(&arrangement, Selection::SymmetricDifference).unwrap()).unwrap();
+    let triangles: Vec<[i32; 3]> = e.triangles.iter().map(|t| t.map(|v| v as i32)).collect();
+    let contacts = |coords: &[[f64; 3]], triangles: &[[i32; 3]]| -> Vec<[TriangleId; 2]> {
+        let flat: Vec<bool> = triangles.iter().map(|t| is_flat(t.map(|v| coords[v as usize]))).collect();
+        let others: Vec<usize> = (0..triangles.len()).filter(|&t| !flat[t]).collect();
+        let corners: Vec<[VertexId; 3]> = others.iter().map(|&t| triangles[t].map(|v| VertexId(v as u32))).collect();
+        let pairs = self_intersections(coords, &corners, &build_bvh(coords, &corners), usize::MAX);
+        pairs.into_iter().map(|p| p.map(|t| TriangleId::of(others[t.at()]))).collect()
+    };
+    let before = contacts(&e.coords, &triangles);
+    let near = 8.0 * 10.0 * f64::EPSILON;
+    let found = slabs(&e.coords, &triangles, &before, near);
+    assert!(found.len() >= 2, "{}", found.len());
+    found.iter().for_each(|s| assert_eq!(s.check(&triangles), Ok(())));
+    let mut coords = e.coords.clone();
+    let made = flatten(&mut coords, &triangles, &before, near, 0.25 * near, &mut Run::quiet()).unwrap();
+    assert_eq!(made.check(), Ok(()));
+    assert!(made.count > 0 && made.moved <= 4.0 * near && made.triangles.len() < triangles.len());
+    let after = contacts(&coords, &made.triangles);
+    println!("{} contacts, {} after, {} parts", before.len(), after.len(), found.len());
+    assert!(after.len() < before.len());
 }
 
 /// In rationals.
@@ -254,5 +286,49 @@ fn bunnies() {
         let c = boolean(&[&a, &b], s);
         show("bunnies", &c, started);
         assert_solid(&c, "bunnies");
+    }
+    if std::env::var_os("LAPIDARY_LONG").is_none() {
+        return;
+    }
+    // Nearly itself: thousands of small sheets. A minute.
+    let mut random = Random(8);
+    let mut other = a.clone();
+    other.vertices.iter_mut().flatten().for_each(|x| *x += *x * f64::EPSILON * random.signed());
+    all_certified(&a, &other, "bunny");
+}
+
+/// Powers of two and the number of threads change nothing.
+#[test]
+fn the_same_at_any_scale_and_with_any_threads() {
+    let turn = rotation(&mut Random(6));
+    let made = |scale: f64| {
+        let two = [[0.0; 3], [0.5, 0.25, 0.0]].map(|shift| moved(&grid_cube(3, shift, 1.0), turn, 1.0, [0.0; 3]));
+        let [a, b] = two.map(|mut s| {
+            s.vertices.iter_mut().flatten().for_each(|x| *x *= scale);
+            s
+        });
+        boolean(&[&a, &b], Selection::SymmetricDifference)
+    };
+    let one = made(1.0);
+    assert_solid(&one, "at its size");
+    assert!(one.report.snapped > 0);
+    for power in [40, -40, 120, -120] {
+        let scale = 2f64.powi(power);
+        let c = made(scale);
+        assert!(c.triangles == one.triangles && c.sources == one.sources && c.against == one.against, "{power}");
+        assert!(c.coords.iter().flatten().zip(one.coords.iter().flatten()).all(|(x, y)| *x == y * scale), "{power}");
+        assert_eq!(c.report.largest_move, one.report.largest_move * scale);
+    }
+    // Where squares overflow or vanish it may fail to certify, but it says so.
+    for power in [-1000, -540, 500, 1000] {
+        let c = made(2f64.powi(power));
+        println!("scale 2^{power}: certified {}", c.report.certified);
+        if c.report.certified {
+            assert_solid(&c, "at an extreme");
+        }
+    }
+    for threads in [1, 3] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        assert_eq!(pool.install(|| made(1.0)), one);
     }
 }

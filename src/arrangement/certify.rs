@@ -6,9 +6,12 @@
 //! meet in common vertices and edges only, and between them are the winding numbers 0 and 1. Otherwise its constructed corners are rounded, and
 //! the next round begins. Only corners constructed in a round move in it, by half a unit in the last place, so where nothing meets nothing changes.
 //!
-//! From the second round on, what is in contact is snapped first ([`super::snap`]), and thin cells that rounding would break go over to a neighbour.
-//! Sheets nearly in one plane that bound a sliver (differences of nearly coplanar operands) may still entangle more with each round: then it ends,
-//! uncertified.
+//! Before each round flat parts around contacts, sheets that doubles cannot tell apart, become one sheet each ([`super::flatten`]). From the second round on, what is
+//! still in contact is snapped ([`super::snap`]), and thin cells that rounding would break go over to a neighbour.
+//!
+//! Invariants. What a round begins with is closed, as flattening and snapping keep closed what was (checked in debug builds; the arrangement refuses what is not
+//! balanced). Nothing is certified but by an exact arrangement that constructs nothing. It ends: so many rounds, so many flattenings and snaps in each, so many triangles
+//! and contacts; what is not certified then says so.
 //!
 //! Degenerate cases: corners that come to lie at one place become one; triangles without corners left go, and those whose corners come to lie
 //! on a line are dropped by the arrangement, which splits the edge opposite.
@@ -256,6 +259,7 @@ fn places(before: &[[f64; 3]], after: &[[f64; 3]]) -> [usize; 2] {
 /// Takes over what was snapped. Returns whether anything was.
 fn replaced(s: &mut CertifiedSurface, made: Snapped) -> bool {
     if made.count > 0 {
+        debug_assert_eq!(made.check(), Ok(()));
         s.report.snapped += made.count;
         s.report.largest_move += made.moved;
         s.sources = made.source.iter().map(|t| s.sources[*t as usize]).collect();

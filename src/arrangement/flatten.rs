@@ -81,6 +81,9 @@ pub fn flatten(
             continue;
         }
         let made = level.raised(&slab, coords);
+        if !made.new.iter().flatten().all(|x| x.is_finite()) {
+            continue;
+        }
         if made.pieces.len() == slab.members.len() && made.new.is_empty() && made.stands.is_empty() {
             continue;
         }
@@ -114,6 +117,7 @@ fn level_of(coords: &[[f64; 3]], triangles: &[[i32; 3]], slab: &Slab) -> Level {
     let number = |v: i32| slab.corners.partition_point(|w| *w < v) as i32;
     let (u, v) = seen_along(slab.flat.axis);
     let at = || slab.corners.iter().map(|c| coords[*c as usize]);
+    debug_assert_eq!(slab.check(triangles), Ok(()));
     let own = |t: u32| triangles[t as usize];
     let edge = |t: [i32; 3], i: usize| [t[i].min(t[(i + 1) % 3]), t[i].max(t[(i + 1) % 3])];
     let mut edges: Vec<[i32; 2]> = slab.members.iter().flat_map(|t| [0, 1, 2].map(|i| edge(own(*t), i))).collect();
@@ -296,6 +300,7 @@ impl Level {
             all
         });
         let resolved = resolve::resolve(soup, graphs, &clusters, pairs, run)?;
+        debug_assert_eq!(resolved.check(), Ok(()));
         let new = resolved.points.coords.len();
         self.places.extend_from_slice(&resolved.points.coords);
         self.heights.resize(count + new, f64::NAN);

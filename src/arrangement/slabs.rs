@@ -58,6 +58,21 @@ pub struct Slab {
     pub others: Vec<u32>,
 }
 
+impl Slab {
+    /// Members' corners are its corners; what else has one of these is in `others`.
+    pub fn check(&self, triangles: &[[i32; 3]]) -> Result<(), String> {
+        let inside = |v: &i32| self.corners.binary_search(v).is_ok();
+        for (t, corners) in triangles.iter().enumerate() {
+            let t = t as u32;
+            let [member, other] = [&self.members, &self.others].map(|list| list.binary_search(&t).is_ok());
+            if member && !corners.iter().all(inside) || other == member && corners.iter().any(inside) {
+                return Err(format!("triangle {t}"));
+            }
+        }
+        Ok(())
+    }
+}
+
 /// What parts are searched in.
 struct Search<'a> {
     coords: &'a [[f64; 3]],

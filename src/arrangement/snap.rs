@@ -25,6 +25,26 @@ pub struct Snapped {
     pub moved: f64,
 }
 
+impl Snapped {
+    /// As many triangles run along each edge as against it; three corners each.
+    pub fn check(&self) -> Result<(), String> {
+        if self.source.len() != self.triangles.len() {
+            return Err("as many sources as triangles".into());
+        }
+        if let Some(t) = self.triangles.iter().find(|t| !whole(t)) {
+            return Err(format!("a triangle on {t:?}"));
+        }
+        let mut sides: Vec<([i32; 2], bool)> =
+            self.triangles.iter().flat_map(|t| [0, 1, 2].map(|i| (edge(t, i), t[i] < t[(i + 1) % 3]))).collect();
+        sides.sort_unstable();
+        let open = |same: &&[([i32; 2], bool)]| 2 * same.iter().filter(|s| s.1).count() != same.len();
+        match sides.chunk_by(|a, b| a.0 == b.0).find(open) {
+            Some(same) => Err(format!("the edge {:?} is open", same[0].0)),
+            None => Ok(()),
+        }
+    }
+}
+
 /// A place on an edge, lower end first, where it is split.
 type Split = ([i32; 2], f64, i32);
 
