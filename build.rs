@@ -33,6 +33,7 @@ const SOURCES: &[&str] = &[
     "arrangement_views",
     "arrangement_extract",
     "surface",
+    "surface_certify",
 ];
 
 fn main() {

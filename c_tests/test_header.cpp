@@ -83,6 +83,9 @@ int main()
     const auto second_alone = [](std::int32_t, const std::vector<std::int32_t> &w) { return w[0] == 0 && w[1] == 1; };
     const lapidary::surface rest = both.extract(moved, second_alone);
     check(rest.exact_volume(moved) == "1/12" && rest.triangles().flipped.size() == rest.polygons().births.size());
+    const lapidary::surface certified = rest.certify(moved);
+    check(certified.certified_report().certified == 1 && certified.certified_open().size() == 0);
+    check(certified.exact_volume(moved) == "1/12" && certified.vertices().sources[0] == rest.vertices().sources[0]);
     check(both.exact_vertex(moved, rest.vertices().sources[0]).size() == 3 && both.vertex_origins().kinds.size() == both.vertices().size());
     check(both.face_births().reversed.size() == both.counts().faces && both.exact_cell_volume(moved, 0) == "0");
     try {

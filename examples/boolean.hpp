@@ -47,6 +47,9 @@ struct BooleanReport {
     std::string exact_volume;
     // What is wrong with the output once its coordinates are rounded, by kind.
     std::map<std::string, std::int64_t> defects;
+    // Where it was asked for.
+    bool certify = false;
+    lap_surface_certify_report certified = {};
     Times times;
     Counters counters;
     std::int64_t peak_bytes = 0;
@@ -108,6 +111,7 @@ inline void fill_output(BooleanReport &r, lap_context *context, const lap_surfac
     const char *exact = nullptr;
     must(context, lap_surface_volume_exact(context, surface, &exact));
     r.exact_volume = exact;
+    if (r.certify) must(context, lap_surface_certified_report(surface, &r.certified, static_cast<std::int32_t>(sizeof r.certified)));
     if (a.triangles == 0) return;
     const std::int32_t status =
         lap_mesh_validate(context, a.vertices, a.xyz, a.triangles, a.corners, nullptr, nullptr);
@@ -153,6 +157,15 @@ inline void print_boolean_table(const BooleanReport &r)
     print_count("Euler characteristic", r.euler);
     print_number("volume", r.volume);
     for (const auto &[kind, count] : r.defects) std::printf("  after rounding: %s %lld\n", kind.c_str(), static_cast<long long>(count));
+    if (r.certify) {
+        std::printf(r.certified.certified ? "certified\n" : "NOT certified\n");
+        print_count("in contact, before", r.certified.contacts_before);
+        print_count("rounds", r.certified.rounds);
+        print_count("moved vertices", r.certified.moved_vertices);
+        print_count("gone vertices", r.certified.gone_vertices);
+        print_number("largest move", r.certified.largest_move);
+        if (!r.certified.certified) print_count("pairs that remain", r.certified.open_pairs);
+    }
     print_times(r.times, r.repeat, r.threads);
     if (!r.counters.empty()) print_decisions(r.counters);
     std::printf("peak memory %27.1f MB\n", static_cast<double>(r.peak_bytes) / 1e6);
@@ -184,6 +197,23 @@ inline void write_boolean_json(const std::string &path, const BooleanReport &r)
     json["seconds"] = times_json(r.times);
     json["predicates"] = counters_json(r.counters);
     json["certified"] = ordered_json::object();
+    if (r.certify) {
+        const lap_surface_certify_report &c = r.certified;
+        json["certified"] = {{"certified", c.certified != 0},
+                             {"flat_before", c.flat_before},
+                             {"contacts_before", c.contacts_before},
+                             {"rounds", c.rounds},
+                             {"triangles_before", c.triangles_before},
+                             {"triangles_after", c.triangles_after},
+                             {"removed_triangles", c.removed_triangles},
+                             {"moved_vertices", c.moved_vertices},
+                             {"gone_vertices", c.gone_vertices},
+                             {"snapped", c.snapped},
+                             {"thin_cells", c.thin_cells},
+                             {"open_pairs", c.open_pairs},
+                             {"largest_move", c.largest_move},
+                             {"move_unit", c.move_unit}};
+    }
     json["peak_bytes"] = r.peak_bytes;
     write_file(path, json.dump(1) + '\n');
 }

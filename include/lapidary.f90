@@ -483,6 +483,50 @@ module lapidary
     end function
   end interface
 
+  ! Options of lap_surface_certify; filled by lap_surface_certify_options_init.
+  type, bind(c), public :: lap_surface_certify_options
+    ! Size of this struct in bytes, as the caller was compiled.
+    integer(c_int32_t) :: struct_size
+    ! Nonzero: check and report, repair nothing. 0, the default: repair.
+    integer(c_int32_t) :: check_only
+    ! How many rounds of repair there may be, 1 or more; 0, the default: the library's own bound. Most surfaces need one
+    ! or two.
+    integer(c_int32_t) :: max_rounds
+  end type
+
+  ! What lap_surface_certified_report writes. Lengths are in the unit of the coordinates.
+  type, bind(c), public :: lap_surface_certify_report
+    ! Size of this struct in bytes, as the caller was compiled.
+    integer(c_int32_t) :: struct_size
+    ! 1 if nothing remains, else 0: then lap_surface_certified_open says where.
+    integer(c_int32_t) :: certified
+    ! With correctly rounded coordinates, before any repair: triangles without area; pairs of others that meet beyond
+    ! what they share by index (counted up to a bound that grows with the triangles).
+    integer(c_int64_t) :: flat_before
+    integer(c_int64_t) :: contacts_before
+    ! Rounds of repair, each an exact arrangement of the surface, that were needed; the last one changed nothing.
+    integer(c_int64_t) :: rounds
+    integer(c_int64_t) :: triangles_before
+    integer(c_int64_t) :: triangles_after
+    ! Triangles of the surface of which no part is left.
+    integer(c_int64_t) :: removed_triangles
+    ! Vertices of the result at places where the surface has none.
+    integer(c_int64_t) :: moved_vertices
+    ! Places of vertices of the surface at which the result has none.
+    integer(c_int64_t) :: gone_vertices
+    ! Places where vertices, edges and triangles near one another were made to share vertices.
+    integer(c_int64_t) :: snapped
+    ! Cells too thin for doubles that were left out of the solid or filled in.
+    integer(c_int64_t) :: thin_cells
+    ! What lap_surface_certified_open lists.
+    integer(c_int64_t) :: open_pairs
+    ! A bound on how far the surface went in any coordinate from where its correctly rounded vertices have it, thin
+    ! cells apart.
+    real(c_double) :: largest_move
+    ! One ulp of the largest |coordinate|.
+    real(c_double) :: move_unit
+  end type
+
   public :: lap_version
   interface
     ! The version of the library that is running.
@@ -3974,7 +4018,8 @@ module lapidary
     ! The vertices of a surface.
     !
     ! Outputs (each may be NULL; borrowed until the surface is freed): count; xyz: 3 × count coordinates, each the
-    ! double nearest to the exact one; sources: the vertex of the network or of the arrangement that each is, rising.
+    ! double nearest to the exact one (unless certified, see lap_surface_certify); sources: the vertex of the network or
+    ! of the arrangement that each is, rising.
     !
     ! Errors: LAP_ERR_NULL_POINTER if surface is NULL. Threads: any. Cost: none.
     integer(c_int32_t) function lap_surface_vertices(surface, count, xyz, sources) bind(c, name="lap_surface_vertices")
@@ -3994,7 +4039,7 @@ module lapidary
     ! polygon p are vertices[offsets[p]] up to, not including, vertices[offsets[p + 1]], anticlockwise seen from outside
     ! the solid (in two dimensions: the solid is on the right of the way from the first to the second), as places in
     ! lap_surface_vertices; births: the polygon of the network, or the face of the arrangement, that each comes from,
-    ! rising; flipped: a byte for each, 1 where it runs against that one.
+    ! rising (unless certified); flipped: a byte for each, 1 where it runs against that one.
     !
     ! Errors: LAP_ERR_NULL_POINTER if surface is NULL. Threads: any. Cost: none; the offsets of triangles are filled at
     ! the first call.
@@ -4050,7 +4095,7 @@ module lapidary
   public :: lap_surface_volume
   interface
     ! The volume of the solid that an arrangement's surface bounds, in cubed units of the input: the double nearest to
-    ! the exact volume (of the exact vertices, not of the rounded ones).
+    ! the exact volume (of the exact vertices, not of the rounded ones; of a certified surface, of its own).
     !
     ! Errors: LAP_ERR_NULL_POINTER; LAP_ERR_BAD_ARGUMENT for the surface of a network; LAP_ERR_OUT_OF_MEMORY. Threads:
     ! any. Cost: an exact sum over the triangles at the first call, some microseconds for each that a cut input triangle
@@ -4087,13 +4132,101 @@ module lapidary
     !
     ! complex: borrowed until the surface is freed; do not free it.
     !
-    ! Errors: LAP_ERR_BAD_ARGUMENT for the surface of a network; LAP_ERR_TOO_LARGE, LAP_ERR_NULL_POINTER,
-    ! LAP_ERR_CANCELLED, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: as there.
+    ! Errors: LAP_ERR_BAD_ARGUMENT for the surface of a network and for a certified one (as an operand it makes an
+    ! arrangement that has its cells); LAP_ERR_TOO_LARGE, LAP_ERR_NULL_POINTER, LAP_ERR_CANCELLED,
+    ! LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: as there.
     integer(c_int32_t) function lap_surface_complex(context, surface, complex) bind(c, name="lap_surface_complex")
       import :: c_int32_t, c_ptr
       type(c_ptr), value :: context
       type(c_ptr), value :: surface
       type(c_ptr), intent(inout), optional :: complex
+    end function
+  end interface
+
+  public :: lap_surface_certify_options_init
+  interface
+    ! Fills options of lap_surface_certify with the defaults.
+    !
+    ! struct_size: pass (int32_t)sizeof(lap_surface_certify_options); no more than that is written.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER; LAP_ERR_BAD_ARGUMENT if the size is not a multiple of 4 in 4..4096.
+    integer(c_int32_t) function lap_surface_certify_options_init(options, &
+      struct_size) bind(c, name="lap_surface_certify_options_init")
+      import :: c_int32_t, lap_surface_certify_options
+      type(lap_surface_certify_options), intent(inout), optional :: options
+      integer(c_int32_t), value :: struct_size
+    end function
+  end interface
+
+  public :: lap_surface_certify
+  interface
+    ! Makes of an arrangement's surface one that is solid on its doubles: no triangle is without area, no two meet but
+    ! in a vertex or an edge that they share by index, every place is one vertex, and every point is wound around once
+    ! or not at all. All of that is checked exactly, and repaired where rounding broke it; whether it holds is in the
+    ! report. A certified surface can go straight into the next lap_arrangement_new: its coordinates and triangles as
+    ! they are are the operand.
+    !
+    ! Repair goes in rounds: the rounded surface is arranged exactly, what it winds around in the positive sense is
+    ! kept, and vertices made by that are rounded. From the second round on, vertices, edges and triangles that meet are
+    ! made to share vertices within few units first, and cells hardly thicker than a unit go. So parts that are thinner
+    ! than doubles can tell may vanish. Where nothing has to be repaired the result has the same vertices and triangles
+    ! as the surface, in the same order but for vertices at one place.
+    !
+    ! Inputs: surface: of an arrangement, or certified already; it stays as it is; options: or NULL for the defaults.
+    ! certified: receives the handle, NULL after an error or cancel; free it with lap_surface_free. It keeps nothing of
+    ! the surface or of the arrangement. Of it lap_surface_vertices tells in sources the lowest vertex of the
+    ! arrangement whose rounded coordinates those are, -1 for one at another place; lap_surface_polygons and
+    ! lap_surface_triangles tell the face and the input triangle that each is a part of, but for rounding (not rising
+    ! any more), and whether it runs against these; lap_surface_volume and lap_surface_volume_exact are of the doubles
+    ! as they are.
+    !
+    ! Errors: LAP_ERR_BAD_ARGUMENT for the surface of a network and for options that there are not,
+    ! LAP_ERR_NULL_POINTER, LAP_ERR_TOO_LARGE, LAP_ERR_CANCELLED, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. That something
+    ! remains uncertified is no error. Cost: an arrangement of the surface for each round.
+    integer(c_int32_t) function lap_surface_certify(context, surface, options, &
+      certified) bind(c, name="lap_surface_certify")
+      import :: c_int32_t, c_ptr, lap_surface_certify_options
+      type(c_ptr), value :: context
+      type(c_ptr), value :: surface
+      type(lap_surface_certify_options), intent(in), optional :: options
+      type(c_ptr), intent(inout), optional :: certified
+    end function
+  end interface
+
+  public :: lap_surface_certified_report
+  interface
+    ! The report of a certified surface.
+    !
+    ! report: written; struct_size: pass (int32_t)sizeof(lap_surface_certify_report); no more than that is written.
+    !
+    ! Errors: LAP_ERR_NULL_POINTER; LAP_ERR_BAD_ARGUMENT for a surface that lap_surface_certify did not make, and if the
+    ! size is not a multiple of 4 in 4..4096. Threads: any. Cost: none.
+    integer(c_int32_t) function lap_surface_certified_report(certified, report, &
+      struct_size) bind(c, name="lap_surface_certified_report")
+      import :: c_int32_t, c_ptr, lap_surface_certify_report
+      type(c_ptr), value :: certified
+      type(lap_surface_certify_report), intent(inout), optional :: report
+      integer(c_int32_t), value :: struct_size
+    end function
+  end interface
+
+  public :: lap_surface_certified_open
+  interface
+    ! What remains uncertified, in numbers of the triangles of the certified surface.
+    !
+    ! Outputs (each may be NULL; borrowed until the surface is freed): n_pairs; pairs: 2 × n_pairs triangles that meet,
+    ! the lower first; twice the same one for a triangle without area. At most 65536 are listed. None for a certified
+    ! result, nor for one whose triangles meet nowhere but wind around something in another sense than once (only with
+    ! check_only).
+    !
+    ! Errors: LAP_ERR_NULL_POINTER; LAP_ERR_BAD_ARGUMENT for a surface that lap_surface_certify did not make. Threads:
+    ! any. Cost: none.
+    integer(c_int32_t) function lap_surface_certified_open(certified, n_pairs, &
+      pairs) bind(c, name="lap_surface_certified_open")
+      import :: c_int32_t, c_int64_t, c_ptr
+      type(c_ptr), value :: certified
+      integer(c_int64_t), intent(inout), optional :: n_pairs
+      type(c_ptr), intent(inout), optional :: pairs
     end function
   end interface
 

@@ -561,6 +561,50 @@ typedef struct lap_operand {
  */
 typedef int32_t (*lap_inside)(void *user, int32_t cell, int64_t n_operands, const int32_t *winding);
 
+/* Options of lap_surface_certify; filled by lap_surface_certify_options_init. */
+typedef struct lap_surface_certify_options {
+    /* Size of this struct in bytes, as the caller was compiled. */
+    int32_t struct_size;
+    /* Nonzero: check and report, repair nothing. 0, the default: repair. */
+    int32_t check_only;
+    /* How many rounds of repair there may be, 1 or more; 0, the default: the library's own bound. Most surfaces need one or two. */
+    int32_t max_rounds;
+} lap_surface_certify_options;
+
+/* What lap_surface_certified_report writes. Lengths are in the unit of the coordinates. */
+typedef struct lap_surface_certify_report {
+    /* Size of this struct in bytes, as the caller was compiled. */
+    int32_t struct_size;
+    /* 1 if nothing remains, else 0: then lap_surface_certified_open says where. */
+    int32_t certified;
+    /*
+     With correctly rounded coordinates, before any repair: triangles without area; pairs of others that meet beyond what they share by index
+     (counted up to a bound that grows with the triangles).
+     */
+    int64_t flat_before;
+    int64_t contacts_before;
+    /* Rounds of repair, each an exact arrangement of the surface, that were needed; the last one changed nothing. */
+    int64_t rounds;
+    int64_t triangles_before;
+    int64_t triangles_after;
+    /* Triangles of the surface of which no part is left. */
+    int64_t removed_triangles;
+    /* Vertices of the result at places where the surface has none. */
+    int64_t moved_vertices;
+    /* Places of vertices of the surface at which the result has none. */
+    int64_t gone_vertices;
+    /* Places where vertices, edges and triangles near one another were made to share vertices. */
+    int64_t snapped;
+    /* Cells too thin for doubles that were left out of the solid or filled in. */
+    int64_t thin_cells;
+    /* What lap_surface_certified_open lists. */
+    int64_t open_pairs;
+    /* A bound on how far the surface went in any coordinate from where its correctly rounded vertices have it, thin cells apart. */
+    double largest_move;
+    /* One ulp of the largest |coordinate|. */
+    double move_unit;
+} lap_surface_certify_report;
+
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
@@ -3124,7 +3168,7 @@ int32_t lap_surface_free(struct lap_surface *surface);
  The vertices of a surface.
 
  Outputs (each may be NULL; borrowed until the surface is freed): count; xyz: 3 × count coordinates, each the double nearest to the
- exact one; sources: the vertex of the network or of the arrangement that each is, rising.
+ exact one (unless certified, see lap_surface_certify); sources: the vertex of the network or of the arrangement that each is, rising.
 
  Errors: LAP_ERR_NULL_POINTER if surface is NULL. Threads: any. Cost: none.
  */
@@ -3139,7 +3183,7 @@ int32_t lap_surface_vertices(const struct lap_surface *surface,
  Outputs (each may be NULL; borrowed until the surface is freed): count; offsets: count + 1; vertices: those of polygon p are vertices[offsets[p]]
  up to, not including, vertices[offsets[p + 1]], anticlockwise seen from outside the solid (in two dimensions: the solid is on
  the right of the way from the first to the second), as places in lap_surface_vertices; births: the polygon of the network, or the face of the
- arrangement, that each comes from, rising; flipped: a byte for each, 1 where it runs against that one.
+ arrangement, that each comes from, rising (unless certified); flipped: a byte for each, 1 where it runs against that one.
 
  Errors: LAP_ERR_NULL_POINTER if surface is NULL. Threads: any. Cost: none; the offsets of triangles are filled at the first call.
  */
@@ -3177,7 +3221,7 @@ int32_t lap_surface_euler(const struct lap_surface *surface,
 
 /*
  The volume of the solid that an arrangement's surface bounds, in cubed units of the input: the double nearest to the exact volume (of
- the exact vertices, not of the rounded ones).
+ the exact vertices, not of the rounded ones; of a certified surface, of its own).
 
  Errors: LAP_ERR_NULL_POINTER; LAP_ERR_BAD_ARGUMENT for the surface of a network; LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: an exact sum
  over the triangles at the first call, some microseconds for each that a cut input triangle was divided into; then none.
@@ -3203,12 +3247,72 @@ int32_t lap_surface_volume_exact(struct lap_context *context,
 
  complex: borrowed until the surface is freed; do not free it.
 
- Errors: LAP_ERR_BAD_ARGUMENT for the surface of a network; LAP_ERR_TOO_LARGE, LAP_ERR_NULL_POINTER, LAP_ERR_CANCELLED, LAP_ERR_OUT_OF_MEMORY,
- LAP_ERR_BUSY. Cost: as there.
+ Errors: LAP_ERR_BAD_ARGUMENT for the surface of a network and for a certified one (as an operand it makes an arrangement that has its cells);
+ LAP_ERR_TOO_LARGE, LAP_ERR_NULL_POINTER, LAP_ERR_CANCELLED, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: as there.
  */
 int32_t lap_surface_complex(struct lap_context *context,
                             const struct lap_surface *surface,
                             const struct lap_complex **complex);
+
+/*
+ Fills options of lap_surface_certify with the defaults.
+
+ struct_size: pass (int32_t)sizeof(lap_surface_certify_options); no more than that is written.
+
+ Errors: LAP_ERR_NULL_POINTER; LAP_ERR_BAD_ARGUMENT if the size is not a multiple of 4 in 4..4096.
+ */
+int32_t lap_surface_certify_options_init(struct lap_surface_certify_options *options, int32_t struct_size);
+
+/*
+ Makes of an arrangement's surface one that is solid on its doubles: no triangle is without area, no two meet but in a vertex or an edge that they
+ share by index, every place is one vertex, and every point is wound around once or not at all. All of that is checked exactly, and repaired
+ where rounding broke it; whether it holds is in the report. A certified surface can go straight into the next lap_arrangement_new: its
+ coordinates and triangles as they are are the operand.
+
+ Repair goes in rounds: the rounded surface is arranged exactly, what it winds around in the positive sense is kept, and vertices made by
+ that are rounded. From the second round on, vertices, edges and triangles that meet are made to share vertices within few units first, and cells
+ hardly thicker than a unit go. So parts that are thinner than doubles can tell may vanish. Where nothing has to be repaired the result has the
+ same vertices and triangles as the surface, in the same order but for vertices at one place.
+
+ Inputs: surface: of an arrangement, or certified already; it stays as it is; options: or NULL for the defaults. certified: receives the handle,
+ NULL after an error or cancel; free it with lap_surface_free. It keeps nothing of the surface or of the arrangement.
+ Of it lap_surface_vertices tells in sources the lowest vertex of the arrangement whose rounded coordinates those are, -1 for one at another
+ place; lap_surface_polygons and lap_surface_triangles tell the face and the input triangle that each is a part of, but for
+ rounding (not rising any more), and whether it runs against these; lap_surface_volume and lap_surface_volume_exact are of the doubles as they are.
+
+ Errors: LAP_ERR_BAD_ARGUMENT for the surface of a network and for options that there are not, LAP_ERR_NULL_POINTER, LAP_ERR_TOO_LARGE,
+ LAP_ERR_CANCELLED, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. That something remains uncertified is no error. Cost: an arrangement of the surface for
+ each round.
+ */
+int32_t lap_surface_certify(struct lap_context *context,
+                            const struct lap_surface *surface,
+                            const struct lap_surface_certify_options *options,
+                            struct lap_surface **certified);
+
+/*
+ The report of a certified surface.
+
+ report: written; struct_size: pass (int32_t)sizeof(lap_surface_certify_report); no more than that is written.
+
+ Errors: LAP_ERR_NULL_POINTER; LAP_ERR_BAD_ARGUMENT for a surface that lap_surface_certify did not make, and if the size is not a multiple of 4
+ in 4..4096. Threads: any. Cost: none.
+ */
+int32_t lap_surface_certified_report(const struct lap_surface *certified,
+                                     struct lap_surface_certify_report *report,
+                                     int32_t struct_size);
+
+/*
+ What remains uncertified, in numbers of the triangles of the certified surface.
+
+ Outputs (each may be NULL; borrowed until the surface is freed): n_pairs; pairs: 2 × n_pairs triangles that meet, the lower first; twice the same
+ one for a triangle without area. At most 65536 are listed. None for a certified result, nor for one whose triangles meet nowhere but wind around
+ something in another sense than once (only with check_only).
+
+ Errors: LAP_ERR_NULL_POINTER; LAP_ERR_BAD_ARGUMENT for a surface that lap_surface_certify did not make. Threads: any. Cost: none.
+ */
+int32_t lap_surface_certified_open(const struct lap_surface *certified,
+                                   int64_t *n_pairs,
+                                   const int32_t **pairs);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -1277,6 +1277,13 @@ inline lap_network_options network_options()
     return options;
 }
 
+inline lap_surface_certify_options surface_certify_options()
+{
+    lap_surface_certify_options options;
+    check(lap_surface_certify_options_init(&options, static_cast<std::int32_t>(sizeof options)));
+    return options;
+}
+
 /* The boundary of a solid made of regions of a network or of cells of an arrangement. */
 class surface {
 public:
@@ -1338,6 +1345,28 @@ public:
         const char *volume = "";
         with.run(lap_surface_volume_exact(with.get(), get(), &volume));
         return volume;
+    }
+    /* Solid on its doubles, checked exactly; certified_report().certified tells whether nothing remains. */
+    surface certify(context &with, const lap_surface_certify_options &options = surface_certify_options()) const
+    {
+        lap_surface *made = nullptr;
+        const std::int32_t status = lap_surface_certify(with.get(), get(), &options, &made);
+        surface result(made);
+        with.run(status);
+        return result;
+    }
+    /* These two are for surfaces that certify made. */
+    lap_surface_certify_report certified_report() const
+    {
+        lap_surface_certify_report report;
+        check(lap_surface_certified_report(get(), &report, static_cast<std::int32_t>(sizeof report)));
+        return report;
+    }
+    groups<std::int32_t, 2> certified_open() const
+    {
+        groups<std::int32_t, 2> pairs;
+        check(lap_surface_certified_open(get(), &pairs.count, &pairs.data));
+        return pairs;
     }
 
     /* What the surface of an arrangement's solid bounds, borrowed from this surface. */

@@ -80,7 +80,7 @@ fn certified_union(soups: &[Soup], run: &mut Run) -> lapidary::base::Result<usiz
     let a = make(soups, run)?;
     let e = extract(&a, &choose(&a, Selection::Union)?)?;
     drop(a);
-    Ok(certify(&e, &CertifyOptions::default(), run)?.triangles.len())
+    Ok(certify(&e.coords, &e.triangles, &CertifyOptions::default(), run)?.triangles.len())
 }
 
 /// The longest time between two questions, by what the first of them named; the last one until the result is there.
@@ -230,7 +230,7 @@ fn bits(soups: &[Soup], threads: usize) -> (Vec<u64>, String) {
     pool(threads).install(|| {
         let a = make(soups, &mut Run::quiet()).unwrap();
         let e = extract(&a, &choose(&a, Selection::Union).unwrap()).unwrap();
-        let c = certify(&e, &CertifyOptions::default(), &mut Run::quiet()).unwrap();
+        let c = certify(&e.coords, &e.triangles, &CertifyOptions::default(), &mut Run::quiet()).unwrap();
         let r = &a.resolved;
         let coords = r.points.coords.iter().chain(&e.coords).chain(&c.coords).flatten().map(|x| x.to_bits()).collect();
         let mut text = format!("{:?} {:?} {:?} {:?}", r.faces, r.support, r.points.origins, r.births);

@@ -36,5 +36,6 @@ void test_grid(void);
 void test_simplex(void);
 void test_network(void);
 void test_arrangement(void);
+void test_surface_certify(void);
 
 #endif

@@ -98,5 +98,6 @@ int main(void)
     test_simplex();
     test_network();
     test_arrangement();
+    test_surface_certify();
     return check_result();
 }

@@ -308,12 +308,14 @@ contains
     integer(c_int32_t), target :: corners(3, 12)
     type(lap_operand) :: operands(2)
     type(lap_arrangement_options) :: options
-    type(c_ptr) :: arrangement, surface, text, offsets, numbers
+    type(lap_surface_certify_report) :: report
+    type(c_ptr) :: arrangement, surface, certified, text, offsets, numbers
     integer(c_int64_t) :: cells, count, triangles_there
     integer(c_int32_t), pointer :: rows(:)
     real(c_double) :: volume
     arrangement = c_null_ptr
     surface = c_null_ptr
+    certified = c_null_ptr
     text = c_null_ptr
     offsets = c_null_ptr
     numbers = c_null_ptr
@@ -338,6 +340,12 @@ contains
     call ok(lap_arrangement_extract(context, arrangement, LAP_EXTRACT_UNION, 0, surface), "lap_arrangement_extract")
     call ok(lap_surface_volume(surface, volume), "lap_surface_volume")
     call check(volume == 15, "the volume of the union")
+    call ok(lap_surface_certify(context, surface, certified=certified), "lap_surface_certify")
+    call ok(lap_surface_certified_report(certified, report, int(c_sizeof(report), c_int32_t)), "lap_surface_certified_report")
+    call check(report%certified == 1 .and. report%contacts_before == 0, "a certified union")
+    call ok(lap_surface_volume(certified, volume), "its volume")
+    call check(volume == 15, "the volume of the certified union")
+    call ok(lap_surface_free(certified), "lap_surface_free")
     call ok(lap_surface_free(surface), "lap_surface_free")
     call ok(lap_arrangement_extract_expression(context, arrangement, "0 - 1" // c_null_char, surface), "an expression")
     call ok(lap_surface_volume_exact(context, surface, text), "lap_surface_volume_exact")

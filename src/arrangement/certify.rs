@@ -6,19 +6,23 @@
 //! meet in common vertices and edges only, and between them are the winding numbers 0 and 1. Otherwise its constructed corners are rounded, and
 //! the next round begins. Only corners constructed in a round move in it, by half a unit in the last place, so where nothing meets nothing changes.
 //!
-//! From the second round on, what is in contact is snapped first ([`super::snap`]), and thin cells that rounding would break go over to a neighbour.
-//! Sheets nearly in one plane that bound a sliver (differences of nearly coplanar operands) may still entangle more with each round: then it ends,
-//! uncertified.
+//! Before each round flat parts around contacts, sheets that doubles cannot tell apart, become one sheet each ([`super::flatten`]). From the second round on, what is
+//! still in contact is snapped ([`super::snap`]), and thin cells that rounding would break go over to a neighbour.
+//!
+//! Invariants. What a round begins with is closed, as flattening and snapping keep closed what was (checked in debug builds; the arrangement refuses what is not
+//! balanced). Nothing is certified but by an exact arrangement that constructs nothing. It ends: so many rounds, so many flattenings and snaps in each, so many triangles
+//! and contacts; what is not certified then says so.
 //!
 //! Degenerate cases: corners that come to lie at one place become one; triangles without corners left go, and those whose corners come to lie
 //! on a line are dropped by the arrangement, which splits the edge opposite.
 //!
 //! Cost: an arrangement of the surface for each round; mostly two.
 
-use super::snap::snap;
+use super::flatten::flatten;
+use super::snap::{Snapped, snap};
 use super::{Arrangement, ArrangementOptions, Extraction, Operand, Selection, arrange, choose, extract};
 use crate::base::union_find::UnionFind;
-use crate::base::{FaceId, OperandId, Result, Run, TriangleId, VertexId, Watch};
+use crate::base::{FaceId, Result, Run, TriangleId, VertexId, Watch};
 use crate::exact::{self, Point};
 use crate::mesh::bvh::build_bvh_watched;
 use crate::mesh::self_intersection::self_intersections_watched;
@@ -38,10 +42,18 @@ const SNAPS: usize = 8;
 
 /// Corners between two looks at the caller's wish to stop.
 const OFTEN: usize = 16;
+/// Flat parts of so many units on either side of a plane become one sheet; with each level twice as thick. So often at most a round flattens.
+const FLAT: f64 = 8.0;
+const FLATTENINGS: usize = 4;
+
+/// Corners and edges of such a sheet have room of so many units.
+const GRAIN: f64 = 2.0;
 
 /// What the caller decides.
 #[derive(Clone, Copy, Debug)]
 pub struct CertifyOptions {
+    /// Check and report, change nothing.
+    pub check_only: bool,
     /// Rounds at most.
     pub rounds: usize,
     /// The surface may come to have so many times the triangles that it had. (As many contacts as triangles are too many in any case.)
@@ -50,7 +62,7 @@ pub struct CertifyOptions {
 
 impl Default for CertifyOptions {
     fn default() -> Self {
-        Self { rounds: 30, growth: 4 }
+        Self { check_only: false, rounds: 30, growth: 4 }
     }
 }
 
@@ -72,21 +84,25 @@ pub struct CertifyReport {
     pub certified: bool,
     /// In order.
     pub rounds: Vec<Round>,
-    /// Corners that were merged into others, and corners made and rounded after the first rounding.
-    pub merged: usize,
-    pub moved: usize,
     /// Places where corners, edges and triangles near one another were snapped together.
     pub snapped: usize,
     /// Cells hardly thicker than a unit, with corners that doubles do not have, that were left out or filled in.
     pub thin_cells: usize,
+    /// Corners of the result at places where the surface has none, and places of the surface at which the result has none.
+    pub moved: usize,
+    pub gone: usize,
+    /// Triangles of the surface of which no part is left.
+    pub removed: usize,
     /// The sum over rounds of the largest move of a coordinate by rounding in each, and of the distances within which was snapped: a bound
     /// on how far the surface went from where correct rounding had it, but for what thin cells took away.
     pub largest_move: f64,
+    /// An ulp of the largest coordinate.
+    pub unit: f64,
     /// Triangles of the correctly rounded surface, and of the result.
     pub triangles_before: usize,
     pub triangles_after: usize,
     /// If it is not certified: triangles of the result without area (twice the same one), and pairs of them in contact, sorted;
-    /// at most [`MAX_LISTED`].
+    /// at most [`MAX_LISTED`]. None, if it winds around something in another sense than once.
     pub remaining: Vec<[TriangleId; 2]>,
 }
 
@@ -97,54 +113,106 @@ pub struct CertifiedSurface {
     pub coords: Vec<[f64; 3]>,
     /// Counterclockwise seen from outside.
     pub triangles: Vec<[i32; 3]>,
-    /// The operand and the triangle, by its place in the operand's list, that each is a part of, but for rounding; and whether it runs against it.
-    pub births: Vec<(OperandId, u32)>,
-    pub flipped: Vec<bool>,
+    /// The triangle of the surface that was certified that each is a part of, but for rounding; and whether it runs against it.
+    pub sources: Vec<TriangleId>,
+    pub against: Vec<bool>,
     pub report: CertifyReport,
 }
 
-/// Certifies what was extracted from an arrangement. Runs on the current rayon pool; the result does not depend on its size.
+/// Certifies a closed surface, what was extracted from an arrangement say. Runs on the current rayon pool; the result does not depend on its size.
 ///
-/// What cannot be certified is returned as it was in the round with the fewest contacts, and the report says so. Errors: `TooLarge`, `Cancelled`.
-pub fn certify(e: &Extraction, options: &CertifyOptions, run: &mut Run) -> Result<CertifiedSurface> {
+/// What cannot be certified is returned as it was in the round with the fewest contacts, and the report says so. Errors: as of [`arrange`].
+pub fn certify(
+    coords: &[[f64; 3]],
+    triangles: &[[u32; 3]],
+    options: &CertifyOptions,
+    run: &mut Run,
+) -> Result<CertifiedSurface> {
+    let unit = unit(coords);
     let mut now = CertifiedSurface {
-        coords: e.coords.clone(),
-        triangles: e.triangles.iter().map(|t| t.map(|v| v as i32)).collect(),
-        births: e.births.clone(),
-        flipped: e.flipped.clone(),
-        report: CertifyReport { triangles_before: e.triangles.len(), ..CertifyReport::default() },
+        coords: coords.to_vec(),
+        triangles: triangles.iter().map(|t| t.map(|v| v as i32)).collect(),
+        sources: (0..triangles.len()).map(TriangleId::of).collect(),
+        against: vec![false; triangles.len()],
+        report: CertifyReport { triangles_before: triangles.len(), unit, ..CertifyReport::default() },
     };
-    let most = options.growth.saturating_mul(e.triangles.len().max(16));
-    let unit = unit(&e.coords);
-    let mut best: Option<Found> = None;
+    if options.check_only {
+        check(&mut now, run)?;
+    } else {
+        repair(&mut now, options, run)?;
+    }
+    run.set_part([0.0, 1.0]);
+    now.report.triangles_after = now.triangles.len();
+    [now.report.moved, now.report.gone] = places(coords, &now.coords);
+    let mut left = vec![false; triangles.len()];
+    now.sources.iter().for_each(|t| left[t.at()] = true);
+    now.report.removed = left.iter().filter(|l| !**l).count();
+    Ok(now)
+}
+
+/// Says what is wrong with a surface.
+fn check(now: &mut CertifiedSurface, run: &mut Run) -> Result<()> {
+    let found = defects(now, MAX_LISTED, run)?;
+    let mut round = found.round(now.triangles.len());
+    if found.flat.is_empty() && found.contacts.is_empty() {
+        let operand = Operand { vertices: &now.coords, triangles: &now.triangles };
+        let a = arrange(&[operand], &ArrangementOptions {}, run)?;
+        let solid = extract(&a, &choose(&a, Selection::Resolve)?)?;
+        round.rounded = run.watched("certify", 1.0, |watch| rounded(&a, &solid, watch))?.count;
+        now.report.certified = solid.flipped.iter().filter(|flipped| !**flipped).count() == now.triangles.len();
+    }
+    now.report.rounds.push(round);
+    now.report.remaining = found.listed();
+    Ok(())
+}
+
+fn repair(now: &mut CertifiedSurface, options: &CertifyOptions, run: &mut Run) -> Result<()> {
+    let (before, unit) = (now.triangles.len().max(16), now.report.unit);
+    let most = options.growth.saturating_mul(before);
+    let mut best: Option<(Found, CertifiedSurface)> = None;
     loop {
-        run.tick("certify", 0.0)?;
-        tidy(&mut now);
-        let mut found = run.watched("certify", 0.0, |watch| defects(&now, most + 1, watch))?;
+        tidy(now);
+        // As nobody knows how many rounds there are, each takes half of what is left of the whole.
+        let left = 0.5f64.powi(now.report.rounds.len() as i32);
+        run.set_part([1.0 - left, 1.0 - 0.5 * left]);
+        run.tick("contacts", 0.0)?;
+        let mut found = defects(now, most + 1, run)?;
         let level = now.report.rounds.len().saturating_sub(1) / 2;
         let near = if now.report.rounds.is_empty() { 0.0 } else { unit * f64::from(2 << level.min(LEVELS)) };
-        let round = Round {
-            triangles: now.triangles.len(),
-            flat: found.flat.len(),
-            contacts: found.contacts.len(),
-            rounded: 0,
-        };
-        now.report.rounds.push(round);
-        for _ in 0..SNAPS {
-            if near == 0.0 || found.contacts.is_empty() || !snapped(&mut now, &found.contacts, near) {
+        now.report.rounds.push(found.round(now.triangles.len()));
+        // Work that nobody knows the extent of: the fraction stands still.
+        run.set_part([1.0 - left; 2]);
+        for _ in 0..FLATTENINGS {
+            let distance = unit * FLAT * f64::from(1 << level.min(LEVELS));
+            let made = match found.contacts.is_empty() {
+                true => Snapped::default(),
+                false => flatten(&mut now.coords, &now.triangles, &found.contacts, distance, GRAIN * unit, run)?,
+            };
+            if !replaced(now, made) {
                 break;
             }
-            run.tick("snap", 0.0)?;
-            tidy(&mut now);
-            found = run.watched("snap", 0.0, |watch| defects(&now, most + 1, watch))?;
+            tidy(now);
+            found = defects(now, most + 1, run)?;
+        }
+        for _ in 0..SNAPS {
+            if near == 0.0 || found.contacts.is_empty() {
+                break;
+            }
+            let made = snap(&mut now.coords, &now.triangles, &found.contacts, near);
+            if !replaced(now, made) {
+                break;
+            }
+            tidy(now);
+            found = defects(now, most + 1, run)?;
         }
         let (triangles, contacts, rounds) = (now.triangles.len(), found.contacts.len(), now.report.rounds.len());
-        if best.as_ref().is_none_or(|b| contacts < b.contacts.len()) {
-            best = Some(Found { surface: Some(now.clone()), ..found });
+        if best.as_ref().is_none_or(|(b, _)| contacts < b.contacts.len()) {
+            best = Some((found, now.clone()));
         }
-        if rounds > options.rounds || triangles > most || contacts > e.triangles.len().max(16) {
+        if rounds > options.rounds || triangles > most || contacts > before {
             break;
         }
+        run.set_part([1.0 - left, 1.0 - 0.5 * left]);
         let operand = Operand { vertices: &now.coords, triangles: &now.triangles };
         let a = arrange(&[operand], &ArrangementOptions {}, run)?;
         run.tick("certify", 0.0)?;
@@ -159,37 +227,46 @@ pub fn certify(e: &Extraction, options: &CertifyOptions, run: &mut Run) -> Resul
                 made = run.watched("certify", 0.0, |watch| rounded(&a, &solid, watch))?;
             }
         }
-        now = next(now, &solid);
+        *now = next(std::mem::take(now), &solid);
         if let Some(round) = now.report.rounds.last_mut() {
             round.rounded = made.count;
         }
+        now.report.largest_move += made.largest;
         if made.count == 0 {
             now.report.certified = true;
-            break;
+            return Ok(());
         }
-        now.report.moved += made.count;
-        now.report.largest_move += made.largest;
     }
-    if let (false, Some(Found { flat, contacts, surface: Some(surface) })) = (now.report.certified, best) {
+    if let Some((found, surface)) = best {
         let rounds = std::mem::take(&mut now.report.rounds);
-        now = surface;
+        *now = surface;
         now.report.rounds = rounds;
-        now.report.remaining = flat.into_iter().map(|t| [t; 2]).chain(contacts).collect();
-        now.report.remaining.sort_unstable();
-        now.report.remaining.truncate(MAX_LISTED);
+        now.report.remaining = found.listed();
     }
-    now.report.triangles_after = now.triangles.len();
-    Ok(now)
+    Ok(())
 }
 
-/// Snaps around contacts. Returns whether anything changed.
-fn snapped(s: &mut CertifiedSurface, contacts: &[[TriangleId; 2]], near: f64) -> bool {
-    let made = snap(&mut s.coords, &s.triangles, contacts, near);
+/// How many places the second list has that the first does not, and the other way round.
+fn places(before: &[[f64; 3]], after: &[[f64; 3]]) -> [usize; 2] {
+    let sorted = |coords: &[[f64; 3]]| {
+        let mut all: Vec<[u64; 3]> = coords.iter().map(|x| x.map(|x| (x + 0.0).to_bits())).collect();
+        all.sort_unstable();
+        all.dedup();
+        all
+    };
+    let (before, after) = (sorted(before), sorted(after));
+    let common = after.iter().filter(|x| before.binary_search(x).is_ok()).count();
+    [after.len() - common, before.len() - common]
+}
+
+/// Takes over what was snapped. Returns whether anything was.
+fn replaced(s: &mut CertifiedSurface, made: Snapped) -> bool {
     if made.count > 0 {
+        debug_assert_eq!(made.check(), Ok(()));
         s.report.snapped += made.count;
-        s.report.largest_move += near;
-        s.births = made.source.iter().map(|t| s.births[*t as usize]).collect();
-        s.flipped = made.source.iter().map(|t| s.flipped[*t as usize]).collect();
+        s.report.largest_move += made.moved;
+        s.sources = made.source.iter().map(|t| s.sources[*t as usize]).collect();
+        s.against = made.source.iter().map(|t| s.against[*t as usize]).collect();
         s.triangles = made.triangles;
     }
     made.count > 0
@@ -200,7 +277,6 @@ fn snapped(s: &mut CertifiedSurface, contacts: &[[TriangleId; 2]], near: f64) ->
 fn tidy(s: &mut CertifiedSurface) {
     s.coords.iter_mut().flatten().for_each(|c| *c += 0.0);
     let pairs = validate::duplicates(&s.coords, |_| true);
-    s.report.merged += pairs.len();
     let mut number: Vec<i32> = (0..s.coords.len() as i32).collect();
     pairs.iter().for_each(|&[lowest, other]| number[other as usize] = lowest as i32);
     s.triangles.iter_mut().flatten().for_each(|v| *v = number[*v as usize]);
@@ -224,8 +300,8 @@ fn tidy(s: &mut CertifiedSurface) {
 /// Leaves out triangles, and corners that no other one has.
 fn retain_triangles(s: &mut CertifiedSurface, keep: &[bool]) {
     retain(&mut s.triangles, keep);
-    retain(&mut s.births, keep);
-    retain(&mut s.flipped, keep);
+    retain(&mut s.sources, keep);
+    retain(&mut s.against, keep);
     let mut used = vec![false; s.coords.len()];
     s.triangles.iter().flatten().for_each(|v| used[*v as usize] = true);
     let mut place = 0;
@@ -245,15 +321,26 @@ fn retain<T>(items: &mut Vec<T>, keep: &[bool]) {
     items.retain(|_| keep.next() == Some(&true));
 }
 
-/// What is wrong with a surface, and the surface where it is kept.
+/// What is wrong with a surface.
 struct Found {
     flat: Vec<TriangleId>,
     contacts: Vec<[TriangleId; 2]>,
-    surface: Option<CertifiedSurface>,
 }
 
-/// Triangles without area, rising, and pairs of others in contact, sorted, so many at most. (Told to stop it returns some of them.)
-fn defects(s: &CertifiedSurface, limit: usize, watch: &Watch) -> Found {
+impl Found {
+    fn round(&self, triangles: usize) -> Round {
+        Round { triangles, flat: self.flat.len(), contacts: self.contacts.len(), rounded: 0 }
+    }
+    fn listed(self) -> Vec<[TriangleId; 2]> {
+        let mut all: Vec<_> = self.flat.into_iter().map(|t| [t; 2]).chain(self.contacts).collect();
+        all.sort_unstable();
+        all.truncate(MAX_LISTED);
+        all
+    }
+}
+
+/// Triangles without area, rising, and pairs of others in contact, sorted, so many at most.
+fn defects(s: &CertifiedSurface, limit: usize, run: &mut Run) -> Result<Found> {
     let triangles: Vec<[VertexId; 3]> = s.triangles.iter().map(|t| t.map(|v| VertexId(v as u32))).collect();
     let mut flat = Vec::new();
     validate::degenerate(&s.coords, &triangles, |t| flat.push(TriangleId::of(t)));
@@ -261,10 +348,12 @@ fn defects(s: &CertifiedSurface, limit: usize, watch: &Watch) -> Found {
     let source: Vec<TriangleId> =
         (0..triangles.len()).map(TriangleId::of).filter(|t| gone.next_if_eq(&t).is_none()).collect();
     let others: Vec<[VertexId; 3]> = source.iter().map(|t| triangles[t.at()]).collect();
-    let tree = build_bvh_watched(&s.coords, &others, watch);
-    let pairs = self_intersections_watched(&s.coords, &others, &tree, limit, watch);
-    let contacts = pairs.into_iter().map(|p| p.map(|t| source[t.at()])).collect();
-    Found { flat, contacts, surface: None }
+    let contacts = run.watched("contacts", 0.0, |watch| {
+        let tree = build_bvh_watched(&s.coords, &others, watch);
+        self_intersections_watched(&s.coords, &others, &tree, limit, watch)
+    })?;
+    let contacts = contacts.into_iter().map(|p| p.map(|t| source[t.at()])).collect();
+    Ok(Found { flat, contacts })
 }
 
 /// How many corners of a solid are not the doubles they round to, and a bound on how far in a coordinate.
@@ -361,14 +450,14 @@ pub(super) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-/// The solid, with the births of the surface that it was made from.
+/// The solid, with the sources of the surface that it was made from.
 fn next(from: CertifiedSurface, solid: &Extraction) -> CertifiedSurface {
     let of = |i: usize| solid.births[i].1 as usize;
     CertifiedSurface {
         coords: solid.coords.clone(),
         triangles: solid.triangles.iter().map(|t| t.map(|v| v as i32)).collect(),
-        births: (0..solid.births.len()).map(|i| from.births[of(i)]).collect(),
-        flipped: (0..solid.births.len()).map(|i| from.flipped[of(i)] != solid.flipped[i]).collect(),
+        sources: (0..solid.births.len()).map(|i| from.sources[of(i)]).collect(),
+        against: (0..solid.births.len()).map(|i| from.against[of(i)] != solid.flipped[i]).collect(),
         report: from.report,
     }
 }

@@ -2,7 +2,8 @@
 //! extraction from it (the Mesh Arrangements paper, DESIGN §6).
 //!
 //! Stages in pipeline order: [`soup`] → [`intersect`] (with [`stars`], [`pair`], [`sheets`], [`points`]) → [`clusters`] → [`crossings`] → [`triangulate`] →
-//! [`resolve`] (→ [`clip`], of half-spaces: [`supports`]) → [`patches`] → [`cells`] (with [`nesting`]) → [`winding`] → [`extract`] (→ [`certify`], with [`snap`]) or [`solids`].
+//! [`resolve`] (→ [`clip`], of half-spaces: [`supports`]) → [`patches`] → [`cells`] (with [`nesting`]) → [`winding`] → [`extract`] (→ [`certify`], with
+//! [`flatten`], [`slabs`] and [`snap`]) or [`solids`].
 
 pub mod cells;
 pub mod certify;
@@ -11,6 +12,7 @@ pub mod clusters;
 pub mod crossings;
 pub mod data;
 pub mod extract;
+pub mod flatten;
 pub mod intersect;
 pub mod nesting;
 pub mod pair;
@@ -19,6 +21,7 @@ pub mod planar;
 pub mod points;
 pub mod resolve;
 pub mod sheets;
+pub mod slabs;
 pub mod snap;
 pub mod solids;
 pub mod soup;

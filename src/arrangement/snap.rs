@@ -15,11 +15,34 @@ use crate::base::union_find::UnionFind;
 use std::collections::BTreeMap;
 
 /// Triangles after snapping, and the one that each is a part of.
+#[derive(Default)]
 pub struct Snapped {
     pub triangles: Vec<[i32; 3]>,
     pub source: Vec<u32>,
     /// Corners merged, and places where an edge or a triangle was split.
     pub count: usize,
+    /// How far a coordinate of the surface may have gone.
+    pub moved: f64,
+}
+
+impl Snapped {
+    /// As many triangles run along each edge as against it; three corners each.
+    pub fn check(&self) -> Result<(), String> {
+        if self.source.len() != self.triangles.len() {
+            return Err("as many sources as triangles".into());
+        }
+        if let Some(t) = self.triangles.iter().find(|t| !whole(t)) {
+            return Err(format!("a triangle on {t:?}"));
+        }
+        let mut sides: Vec<([i32; 2], bool)> =
+            self.triangles.iter().flat_map(|t| [0, 1, 2].map(|i| (edge(t, i), t[i] < t[(i + 1) % 3]))).collect();
+        sides.sort_unstable();
+        let open = |same: &&[([i32; 2], bool)]| 2 * same.iter().filter(|s| s.1).count() != same.len();
+        match sides.chunk_by(|a, b| a.0 == b.0).find(open) {
+            Some(same) => Err(format!("the edge {:?} is open", same[0].0)),
+            None => Ok(()),
+        }
+    }
 }
 
 /// A place on an edge, lower end first, where it is split.
@@ -41,7 +64,6 @@ pub fn snap(coords: &mut Vec<[f64; 3]>, triangles: &[[i32; 3]], contacts: &[[Tri
     }
     let now = |t: &[i32; 3], sets: &mut UnionFind| t.map(|v| sets.find(v as usize) as i32);
     let merged: Vec<[i32; 3]> = triangles.iter().map(|t| now(t, &mut sets)).collect();
-    let whole = |t: &[i32; 3]| t[0] != t[1] && t[1] != t[2] && t[2] != t[0];
     let mut splits: Vec<Split> = Vec::new();
     let mut inner: BTreeMap<u32, i32> = BTreeMap::new();
     let mut crossings: BTreeMap<[[i32; 2]; 2], i32> = BTreeMap::new();
@@ -73,28 +95,37 @@ pub fn snap(coords: &mut Vec<[f64; 3]>, triangles: &[[i32; 3]], contacts: &[[Tri
     splits.dedup_by_key(|s| (s.0, s.2));
     splits.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)));
     count += splits.len() + inner.len();
-    let mut out = Snapped { triangles: Vec::with_capacity(merged.len()), source: Vec::new(), count };
-    let mut stack: Vec<Piece> = Vec::new();
+    let mut out = Snapped { triangles: Vec::with_capacity(merged.len()), source: Vec::new(), count, moved: near };
     for (t, &corners) in merged.iter().enumerate() {
         let lists = [0, 1, 2].map(|i| split_list(&splits, corners[i], corners[(i + 1) % 3]));
         match inner.get(&(t as u32)) {
             Some(&v) => {
                 for (i, list) in lists.into_iter().enumerate() {
-                    stack.push(([corners[i], corners[(i + 1) % 3], v], [list, Vec::new(), Vec::new()]));
+                    let part = [corners[i], corners[(i + 1) % 3], v];
+                    split_by(part, [list, Vec::new(), Vec::new()], |t| out.triangles.push(t));
                 }
             }
-            None => stack.push((corners, lists)),
-        }
-        while let Some(piece) = stack.pop() {
-            match halves(piece) {
-                Ok(two) => stack.extend(two),
-                Err(t) if whole(&t) => out.triangles.push(t),
-                Err(_) => {}
-            }
+            None => split_by(corners, lists, |t| out.triangles.push(t)),
         }
         out.source.resize(out.triangles.len(), t as u32);
     }
     out
+}
+
+fn whole(t: &[i32; 3]) -> bool {
+    t[0] != t[1] && t[1] != t[2] && t[2] != t[0]
+}
+
+/// Splits a triangle at corners on its edges, from each corner to the next in this order. Parts that lose a corner are left out.
+pub(super) fn split_by(corners: [i32; 3], lists: [Vec<i32>; 3], mut out: impl FnMut([i32; 3])) {
+    let mut stack: Vec<Piece> = vec![(corners, lists)];
+    while let Some(piece) = stack.pop() {
+        match halves(piece) {
+            Ok(two) => stack.extend(two),
+            Err(t) if whole(&t) => out(t),
+            Err(_) => {}
+        }
+    }
 }
 
 /// Corners, and where each edge from one to the next is split still, in this direction.
@@ -127,12 +158,12 @@ fn edge(t: &[i32; 3], i: usize) -> [i32; 2] {
     [a.min(b), a.max(b)]
 }
 
-fn length(x: [f64; 3]) -> f64 {
+pub(super) fn length(x: [f64; 3]) -> f64 {
     dot(x, x).sqrt()
 }
 
 /// Splits the edges of a triangle that are near a corner and do not end there. Returns whether there are any.
-fn near_edges(coords: &[[f64; 3]], t: &[i32; 3], v: i32, near: f64, splits: &mut Vec<Split>) -> bool {
+pub(super) fn near_edges(coords: &[[f64; 3]], t: &[i32; 3], v: i32, near: f64, splits: &mut Vec<Split>) -> bool {
     let before = splits.len();
     for e in [0, 1, 2].map(|i| edge(t, i)).into_iter().filter(|e| !e.contains(&v)) {
         let [a, b] = e.map(|w| coords[w as usize]);

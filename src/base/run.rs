@@ -13,6 +13,8 @@ type Progress<'a> = dyn FnMut(&'static str, f64) -> bool + Send + 'a;
 pub struct Run<'a> {
     progress: Option<&'a mut Progress<'a>>,
     log: Option<&'a mut (dyn FnMut(&str) + 'a)>,
+    /// The part of the whole call that fractions are of now.
+    part: [f64; 2],
     stages: Vec<(&'static str, f64)>,
     open: Option<(&'static str, Instant)>,
     /// The largest fraction told: calls within calls begin anew, the caller sees none fall.
@@ -22,11 +24,11 @@ pub struct Run<'a> {
 impl<'a> Run<'a> {
     /// Reports to nobody.
     pub fn quiet() -> Self {
-        Self { progress: None, log: None, stages: Vec::new(), open: None, reached: 0.0 }
+        Self::new(None, None)
     }
 
     pub fn new(progress: Option<&'a mut Progress<'a>>, log: Option<&'a mut (dyn FnMut(&str) + 'a)>) -> Self {
-        Self { progress, log, stages: Vec::new(), open: None, reached: 0.0 }
+        Self { progress, log, part: [0.0, 1.0], stages: Vec::new(), open: None, reached: 0.0 }
     }
 
     /// Ends the running stage, starts the next, and tells the progress sink. `fraction` is of the whole call.
@@ -36,9 +38,14 @@ impl<'a> Run<'a> {
         self.tick(name, fraction)
     }
 
+    /// Fractions from here on are of this part of the whole call, until it is set again: for what repeats other operations.
+    pub fn set_part(&mut self, part: [f64; 2]) {
+        self.part = part;
+    }
+
     /// Progress within a stage; an error if the caller wants to stop.
     pub fn tick(&mut self, name: &'static str, fraction: f64) -> Result<()> {
-        self.reached = self.reached.max(fraction);
+        self.reached = self.reached.max(self.of_whole(fraction));
         if let Some(progress) = self.progress.as_mut()
             && !progress(name, self.reached)
         {
@@ -47,8 +54,14 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
+    fn of_whole(&self, fraction: f64) -> f64 {
+        self.part[0] + fraction * (self.part[1] - self.part[0])
+    }
+
     /// Runs work, on any number of threads, that looks now and then whether it is to go on. Its result counts only if it was not to stop.
     pub fn watched<T>(&mut self, name: &'static str, fraction: f64, work: impl FnOnce(&Watch) -> T) -> Result<T> {
+        self.reached = self.reached.max(self.of_whole(fraction));
+        let fraction = self.reached;
         let ask = self
             .progress
             .as_mut()

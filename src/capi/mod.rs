@@ -34,4 +34,5 @@ pub mod network_views;
 pub mod simplex;
 pub mod status;
 pub mod surface;
+pub mod surface_certify;
 mod view;

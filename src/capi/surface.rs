@@ -5,9 +5,11 @@ use super::context::{lap_context, with_context};
 use super::derived::{keep, on_demand};
 use super::guard::guard;
 use super::view::{address, handle, put};
+use crate::arrangement::certify::CertifyReport;
 use crate::arrangement::solids::{joined_cells, solids};
 use crate::arrangement::{Arrangement, Extraction, extract, volumes};
-use crate::base::{Error, OperandId, Status};
+use crate::base::{Error, FaceId, OperandId, Status, VertexId};
+use crate::complex::exact_values::volume_of_triangles;
 use crate::complex::surface_euler;
 use crate::exact::round_rational;
 use crate::network::Network;
@@ -33,6 +35,32 @@ pub struct lap_surface {
 enum Made {
     Regions { boundary: Boundary, xyz: Vec<[f64; 3]> },
     Cells(Box<Solid>),
+    Certified(Box<Certified>),
+}
+
+/// Doubles as they are, with where they come from: an arrangement's vertices and faces, and the operands' triangles.
+pub(super) struct Certified {
+    pub xyz: Vec<[f64; 3]>,
+    pub corners: Vec<[u32; 3]>,
+    /// `NONE` for a vertex at another place than any that the arrangement's surface has.
+    pub vertices: Vec<VertexId>,
+    pub faces: Vec<FaceId>,
+    /// Against the faces of the arrangement.
+    pub turned: Vec<bool>,
+    pub operands: Vec<OperandId>,
+    pub triangles: Vec<u32>,
+    pub flipped: Vec<bool>,
+    pub report: CertifyReport,
+    pub remaining: Vec<[i32; 2]>,
+}
+
+/// What a surface of triangles has of each, whichever it is.
+pub(super) struct Births<'a> {
+    pub faces: &'a [FaceId],
+    pub turned: &'a [bool],
+    pub operands: &'a [OperandId],
+    pub triangles: &'a [u32],
+    pub flipped: &'a [bool],
 }
 
 /// What an arrangement gives.
@@ -74,6 +102,11 @@ impl lap_surface {
         Ok(Self::new(Made::Cells(Box::new(solid)), threads))
     }
 
+    pub(super) fn of_certified(certified: Certified, threads: usize) -> Result<Self, Error> {
+        counted(3 * certified.corners.len())?;
+        Ok(Self::new(Made::Certified(Box::new(certified)), threads))
+    }
+
     fn new(made: Made, threads: usize) -> Self {
         Self { made, threads, offsets: OnceLock::new(), volume: OnceLock::new(), euler: OnceLock::new() }
     }
@@ -83,6 +116,7 @@ impl lap_surface {
         match &self.made {
             Made::Regions { boundary, .. } => &boundary.polygons.items,
             Made::Cells(solid) => solid.extraction.triangles.as_flattened(),
+            Made::Certified(certified) => certified.corners.as_flattened(),
         }
     }
 
@@ -90,26 +124,76 @@ impl lap_surface {
         match &self.made {
             Made::Regions { boundary, .. } => boundary.polygons.len(),
             Made::Cells(solid) => solid.extraction.triangles.len(),
+            Made::Certified(certified) => certified.corners.len(),
         }
     }
 
     fn offsets(&self) -> &[u32] {
         match &self.made {
             Made::Regions { boundary, .. } => &boundary.polygons.offsets,
-            Made::Cells(_) => self.offsets.get_or_init(|| (0..=self.count() as u32).map(|i| 3 * i).collect()),
+            Made::Cells(_) | Made::Certified(_) => {
+                self.offsets.get_or_init(|| (0..=self.count() as u32).map(|i| 3 * i).collect())
+            }
         }
     }
 
-    fn solid(&self) -> Result<&Solid, Status> {
+    /// Coordinates, and the vertex of the network or the arrangement that each is.
+    pub(super) fn vertices(&self) -> (&[[f64; 3]], &[VertexId]) {
+        match &self.made {
+            Made::Regions { boundary, xyz } => (xyz, &boundary.vertices),
+            Made::Cells(solid) => (&solid.extraction.coords, &solid.extraction.vertices),
+            Made::Certified(certified) => (&certified.xyz, &certified.vertices),
+        }
+    }
+
+    /// An error for the surface of a network.
+    pub(super) fn births(&self) -> Result<Births<'_>, Status> {
         match &self.made {
             Made::Regions { .. } => Err(Status::BadArgument),
-            Made::Cells(solid) => Ok(solid),
+            Made::Cells(s) => Ok(Births {
+                faces: &s.extraction.faces,
+                turned: &s.turned,
+                operands: &s.operands,
+                triangles: &s.triangles,
+                flipped: &s.extraction.flipped,
+            }),
+            Made::Certified(c) => Ok(Births {
+                faces: &c.faces,
+                turned: &c.turned,
+                operands: &c.operands,
+                triangles: &c.triangles,
+                flipped: &c.flipped,
+            }),
+        }
+    }
+
+    /// An error for any other surface.
+    pub(super) fn certified(&self) -> Result<&Certified, Status> {
+        match &self.made {
+            Made::Certified(certified) => Ok(certified),
+            _ => Err(Status::BadArgument),
+        }
+    }
+
+    /// Triangles as places in the vertices.
+    pub(super) fn triangles(&self) -> &[[u32; 3]] {
+        match &self.made {
+            Made::Regions { .. } => &[],
+            Made::Cells(solid) => &solid.extraction.triangles,
+            Made::Certified(certified) => &certified.corners,
         }
     }
 
     fn volume(&self) -> Result<&Rational, Status> {
-        let solid = self.solid()?;
-        on_demand(self.threads, &self.volume, || volumes::volume(&solid.arrangement, &solid.extraction))
+        let compute = || match &self.made {
+            Made::Regions { .. } => Rational::new(),
+            Made::Cells(solid) => volumes::volume(&solid.arrangement, &solid.extraction),
+            Made::Certified(c) => volume_of_triangles(&c.xyz, &c.corners),
+        };
+        match &self.made {
+            Made::Regions { .. } => Err(Status::BadArgument),
+            _ => on_demand(self.threads, &self.volume, compute),
+        }
     }
 }
 
@@ -136,7 +220,7 @@ pub unsafe extern "C" fn lap_surface_free(surface: *mut lap_surface) -> i32 {
 /// The vertices of a surface.
 ///
 /// Outputs (each may be NULL; borrowed until the surface is freed): count; xyz: 3 × count coordinates, each the double nearest to the
-/// exact one; sources: the vertex of the network or of the arrangement that each is, rising.
+/// exact one (unless certified, see lap_surface_certify); sources: the vertex of the network or of the arrangement that each is, rising.
 ///
 /// Errors: LAP_ERR_NULL_POINTER if surface is NULL. Threads: any. Cost: none.
 #[unsafe(no_mangle)]
@@ -148,10 +232,7 @@ pub unsafe extern "C" fn lap_surface_vertices(
 ) -> i32 {
     guard(|_| {
         let surface = unsafe { handle(surface) }?;
-        let (coords, vertices) = match &surface.made {
-            Made::Regions { boundary, xyz } => (xyz, &boundary.vertices),
-            Made::Cells(solid) => (&solid.extraction.coords, &solid.extraction.vertices),
-        };
+        let (coords, vertices) = surface.vertices();
         unsafe {
             put(count, coords.len() as i64);
             put(xyz, address(coords));
@@ -166,7 +247,7 @@ pub unsafe extern "C" fn lap_surface_vertices(
 /// Outputs (each may be NULL; borrowed until the surface is freed): count; offsets: count + 1; vertices: those of polygon p are vertices[offsets[p]]
 /// up to, not including, vertices[offsets[p + 1]], anticlockwise seen from outside the solid (in two dimensions: the solid is on
 /// the right of the way from the first to the second), as places in lap_surface_vertices; births: the polygon of the network, or the face of the
-/// arrangement, that each comes from, rising; flipped: a byte for each, 1 where it runs against that one.
+/// arrangement, that each comes from, rising (unless certified); flipped: a byte for each, 1 where it runs against that one.
 ///
 /// Errors: LAP_ERR_NULL_POINTER if surface is NULL. Threads: any. Cost: none; the offsets of triangles are filled at the first call.
 #[unsafe(no_mangle)]
@@ -180,9 +261,9 @@ pub unsafe extern "C" fn lap_surface_polygons(
 ) -> i32 {
     guard(|_| {
         let surface = unsafe { handle(surface) }?;
-        let (of_birth, of_flip) = match &surface.made {
-            Made::Regions { boundary, .. } => (address(&boundary.births), &boundary.flipped),
-            Made::Cells(solid) => (address(&solid.extraction.faces), &solid.turned),
+        let (of_birth, of_flip) = match (&surface.made, surface.births()) {
+            (Made::Regions { boundary, .. }, _) => (address(&boundary.births), address(&boundary.flipped)),
+            (_, births) => births.map(|b| (address(b.faces), address(b.turned)))?,
         };
         unsafe {
             put(count, surface.count() as i64);
@@ -191,7 +272,7 @@ pub unsafe extern "C" fn lap_surface_polygons(
             }
             put(vertices, address(surface.corners()));
             put(births, of_birth);
-            put(flipped, address(of_flip));
+            put(flipped, of_flip);
         }
         Ok(())
     })
@@ -215,13 +296,13 @@ pub unsafe extern "C" fn lap_surface_triangles(
 ) -> i32 {
     guard(|_| {
         let surface = unsafe { handle(surface) }?;
-        let solid = surface.solid()?;
+        let of = surface.births()?;
         unsafe {
             put(count, surface.count() as i64);
             put(vertices, address(surface.corners()));
-            put(operands, address(&solid.operands));
-            put(triangles, address(&solid.triangles));
-            put(flipped, address(&solid.extraction.flipped));
+            put(operands, address(of.operands));
+            put(triangles, address(of.triangles));
+            put(flipped, address(of.flipped));
         }
         Ok(())
     })
@@ -238,10 +319,7 @@ pub unsafe extern "C" fn lap_surface_euler(surface: *const lap_surface, euler: *
         if euler.is_null() {
             return Err(Status::NullPointer);
         }
-        let vertices = match &surface.made {
-            Made::Regions { xyz, .. } => xyz.len(),
-            Made::Cells(solid) => solid.extraction.coords.len(),
-        };
+        let vertices = surface.vertices().0.len();
         let (offsets, corners) = (surface.offsets(), surface.corners());
         let count = || {
             let polygon = |w: &[u32]| &corners[w[0] as usize..w[1] as usize];
@@ -253,7 +331,7 @@ pub unsafe extern "C" fn lap_surface_euler(surface: *const lap_surface, euler: *
 }
 
 /// The volume of the solid that an arrangement's surface bounds, in cubed units of the input: the double nearest to the exact volume (of
-/// the exact vertices, not of the rounded ones).
+/// the exact vertices, not of the rounded ones; of a certified surface, of its own).
 ///
 /// Errors: LAP_ERR_NULL_POINTER; LAP_ERR_BAD_ARGUMENT for the surface of a network; LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: an exact sum
 /// over the triangles at the first call, some microseconds for each that a cut input triangle was divided into; then none.
@@ -300,8 +378,8 @@ pub unsafe extern "C" fn lap_surface_volume_exact(
 ///
 /// complex: borrowed until the surface is freed; do not free it.
 ///
-/// Errors: LAP_ERR_BAD_ARGUMENT for the surface of a network; LAP_ERR_TOO_LARGE, LAP_ERR_NULL_POINTER, LAP_ERR_CANCELLED, LAP_ERR_OUT_OF_MEMORY,
-/// LAP_ERR_BUSY. Cost: as there.
+/// Errors: LAP_ERR_BAD_ARGUMENT for the surface of a network and for a certified one (as an operand it makes an arrangement that has its cells);
+/// LAP_ERR_TOO_LARGE, LAP_ERR_NULL_POINTER, LAP_ERR_CANCELLED, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: as there.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn lap_surface_complex(
     context: *mut lap_context,
@@ -314,9 +392,14 @@ pub unsafe extern "C" fn lap_surface_complex(
         }
         unsafe { put(complex, std::ptr::null()) };
         let surface = unsafe { handle(surface) }.map_err(|s| Error::new(s, "surface is NULL"))?;
-        let solid = surface
-            .solid()
-            .map_err(|s| Error::new(s, "the surface is that of a network: lap_network_complex has its regions"))?;
+        let made = match &surface.made {
+            Made::Cells(solid) => Ok(solid),
+            Made::Regions { .. } => Err("the surface is that of a network: lap_network_complex has its regions"),
+            Made::Certified(_) => {
+                Err("the surface is certified: its cells are those of the arrangement that it makes as an operand")
+            }
+        };
+        let solid = made.map_err(|message| Error::new(Status::BadArgument, message))?;
         if solid.complex.get().is_none() {
             let a = &solid.arrangement;
             let made = state.run(host, |run| solids(a, &joined_cells(a, &solid.inside), run))?;

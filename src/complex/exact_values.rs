@@ -211,10 +211,18 @@ pub fn cell_volume_string(c: &Complex, cell: CellId) -> String {
 
 /// The exact volume of the solid that a mesh bounds.
 pub fn mesh_volume(mesh: &TriMesh) -> Rational {
-    let exponent = lowest_exponent(mesh.vertices.iter().flatten().copied());
-    let triangles = (0..mesh.triangles.len()).map(crate::base::TriangleId::of);
-    let sum = triangles.fold(Integer::new(), |s, t| s + triangle_cone(&mesh.corners(t), exponent));
-    volume_of(sum, exponent)
+    volume_of_corners(&mesh.vertices, mesh.triangles.iter().map(|t| t.map(|v| v.at())))
+}
+
+/// The exact volume that closed triangles bound.
+pub fn volume_of_triangles(coords: &[[f64; 3]], triangles: &[[u32; 3]]) -> Rational {
+    volume_of_corners(coords, triangles.iter().map(|t| t.map(|v| v as usize)))
+}
+
+fn volume_of_corners(coords: &[[f64; 3]], triangles: impl Iterator<Item = [usize; 3]>) -> Rational {
+    let exponent = lowest_exponent(coords.iter().flatten().copied());
+    let cone = |t: [usize; 3]| triangle_cone(&t.map(|v| coords[v]), exponent);
+    volume_of(triangles.fold(Integer::new(), |s, t| s + cone(t)), exponent)
 }
 
 /// The exact volume of the solid that a mesh bounds, as a canonical string.
