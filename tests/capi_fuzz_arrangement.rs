@@ -472,7 +472,7 @@ fn soups_and_half_spaces_add_up() {
             if std::env::var_os("LAPIDARY_FUZZ_TRACE").is_some() {
                 eprintln!("half-spaces, round {round}");
             }
-            let meshes: Vec<Mesh> = (0..r.below(3)).map(|_| soup(&mut r)).collect();
+            let meshes: Vec<Mesh> = (0..r.below(3)).map(|_| soup(&mut r, false)).collect();
             let given = operands(&meshes);
             let scale = [1.0, 3.0, 0.1, 1e150, 1e-200][r.below(5) as usize];
             let mut planes: Vec<[f64; 4]> = (0..1 + r.below(5))
