@@ -86,6 +86,7 @@ static void options_and_errors(lap_context *context)
     lap_operand two[2];
     lap_arrangement *a = NULL;
     lap_surface *surface = NULL, *certified = (lap_surface *)&certified;
+    const lap_complex *complex = (const lap_complex *)&complex;
     int64_t count = 0;
 
     STATUS(LAP_ERR_NULL_POINTER, lap_surface_certify_options_init(NULL, (int32_t)sizeof options));
@@ -116,6 +117,9 @@ static void options_and_errors(lap_context *context)
     STATUS(LAP_ERR_NULL_POINTER, lap_surface_certified_report(certified, NULL, (int32_t)sizeof report));
     STATUS(LAP_ERR_BAD_ARGUMENT, lap_surface_certified_report(certified, &report, 0));
     STATUS(LAP_OK, lap_surface_certified_open(certified, NULL, NULL));
+    /* Nor has what was certified a complex, or the surface of a network. */
+    STATUS(LAP_ERR_BAD_ARGUMENT, lap_surface_complex(context, certified, &complex));
+    CHECK(complex == NULL && has_message(context));
     STATUS(LAP_OK, lap_surface_free(certified));
     STATUS(LAP_OK, lap_surface_free(surface));
     STATUS(LAP_OK, lap_arrangement_free(a));
@@ -128,6 +132,8 @@ static void options_and_errors(lap_context *context)
         STATUS_IN(context, LAP_OK, lap_network_csg(context, network, "0", 0, &surface));
         STATUS(LAP_ERR_BAD_ARGUMENT, lap_surface_certify(context, surface, NULL, &certified));
         CHECK(certified == NULL && has_message(context));
+        STATUS(LAP_ERR_BAD_ARGUMENT, lap_surface_complex(context, surface, &complex));
+        CHECK(complex == NULL && has_message(context));
         STATUS(LAP_ERR_BAD_ARGUMENT, lap_surface_certified_open(surface, &count, NULL));
         STATUS(LAP_OK, lap_surface_free(surface));
         STATUS(LAP_OK, lap_network_free(network));

@@ -3,7 +3,7 @@
 use super::arrangement::{lap_arrangement, null_arrangement};
 use super::complex::{lap_complex, number_origin};
 use super::context::{c_string, lap_context, with_context};
-use super::derived::{keep, on_demand};
+use super::derived::{keep, lend_complex, on_demand, once, too_many_elements};
 use super::guard::guard;
 use super::view::{address, handle, index, put};
 use crate::arrangement::solids::{every_cell, solids};
@@ -358,24 +358,18 @@ pub unsafe extern "C" fn lap_arrangement_complex(
     complex: *mut *const lap_complex,
 ) -> i32 {
     with_context(context, |state, host| {
-        if complex.is_null() {
-            return Err(Error::new(Status::NullPointer, "complex is NULL"));
-        }
-        unsafe { put(complex, std::ptr::null()) };
-        let arrangement = unsafe { handle(arrangement) }.map_err(null_arrangement)?;
-        let slot = &arrangement.views.complex;
-        if slot.get().is_none() {
-            let a = &arrangement.data;
-            let made = state.run(host, |run| solids(a, &every_cell(a), run))?;
-            let numbers = a.resolved.soup.given();
-            let complex = lap_complex::of_arrangement(made.complex, numbers, arrangement.threads)
-                .map_err(|status| Error::new(status, "the complex has more elements than 32-bit indices can number"))?;
-            slot.get_or_init(|| Solid { complex, vertices: made.vertices, faces: made.faces });
-        }
-        if let Some(made) = slot.get() {
-            unsafe { put(complex, std::ptr::from_ref(&made.complex)) };
-        }
-        Ok(())
+        let find = || {
+            let arrangement = unsafe { handle(arrangement) }.map_err(null_arrangement)?;
+            let made = once(&arrangement.views.complex, || {
+                let a = &arrangement.data;
+                let made = state.run(host, |run| solids(a, &every_cell(a), run))?;
+                let complex = lap_complex::of_arrangement(made.complex, a.resolved.soup.given(), arrangement.threads)
+                    .map_err(too_many_elements)?;
+                Ok(Solid { complex, vertices: made.vertices, faces: made.faces })
+            })?;
+            Ok(&made.complex)
+        };
+        unsafe { lend_complex(complex, find) }
     })
 }
 

@@ -56,6 +56,36 @@ pub fn on_demand<T: Send + Sync>(
     Ok(slot.get_or_init(|| pool.install(compute)))
 }
 
+/// What `slot` holds; the first caller makes it, or fails and leaves the slot as it is.
+pub fn once<T>(slot: &OnceLock<T>, make: impl FnOnce() -> Result<T, Error>) -> Result<&T, Error> {
+    if let Some(known) = slot.get() {
+        return Ok(known);
+    }
+    let made = make()?;
+    Ok(slot.get_or_init(|| made))
+}
+
+/// Lends the complex of a noun: NULL if `find` fails.
+///
+/// Safety: `complex` is NULL or may be written.
+pub unsafe fn lend_complex<'a>(
+    complex: *mut *const lap_complex,
+    find: impl FnOnce() -> Result<&'a lap_complex, Error>,
+) -> Result<(), Error> {
+    if complex.is_null() {
+        return Err(Error::new(Status::NullPointer, "complex is NULL"));
+    }
+    unsafe { put(complex, std::ptr::null()) };
+    let found = find()?;
+    unsafe { put(complex, std::ptr::from_ref(found)) };
+    Ok(())
+}
+
+/// The status of a complex that C cannot number, in words.
+pub fn too_many_elements(status: Status) -> Error {
+    Error::new(status, "the complex has more elements than 32-bit indices can number")
+}
+
 /// A result that only input which intersects itself can make an error.
 fn consistent<T>(result: &Result<T, String>) -> Result<&T, Status> {
     result.as_ref().map_err(|_| Status::Inconsistent)

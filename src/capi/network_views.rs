@@ -2,7 +2,7 @@
 
 use super::complex::lap_complex;
 use super::context::{c_string, lap_context, with_context};
-use super::derived::on_demand;
+use super::derived::{lend_complex, on_demand, once, too_many_elements};
 use super::guard::guard;
 use super::network::{lap_network, null_network};
 use super::view::{address, handle, index, put};
@@ -579,23 +579,15 @@ pub unsafe extern "C" fn lap_network_complex(
     complex: *mut *const lap_complex,
 ) -> i32 {
     with_context(context, |state, host| {
-        if complex.is_null() {
-            return Err(Error::new(Status::NullPointer, "complex is NULL"));
-        }
-        unsafe { put(complex, std::ptr::null()) };
-        let network = unsafe { handle(network) }.map_err(null_network)?;
-        let slot = &network.views.complex;
-        if slot.get().is_none() {
-            let made =
-                network.with_setting(|setting| state.run(host, |run| volumes(setting, &network.topology, run)))?;
-            let made = lap_complex::new(made, network.threads)
-                .map_err(|status| Error::new(status, "the complex has more elements than 32-bit indices can number"))?;
-            slot.get_or_init(|| made);
-        }
-        if let Some(made) = slot.get() {
-            unsafe { put(complex, std::ptr::from_ref(made)) };
-        }
-        Ok(())
+        let find = || {
+            let network = unsafe { handle(network) }.map_err(null_network)?;
+            once(&network.views.complex, || {
+                let made =
+                    network.with_setting(|setting| state.run(host, |run| volumes(setting, &network.topology, run)))?;
+                lap_complex::new(made, network.threads).map_err(too_many_elements)
+            })
+        };
+        unsafe { lend_complex(complex, find) }
     })
 }
 

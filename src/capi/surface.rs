@@ -2,7 +2,7 @@
 
 use super::complex::lap_complex;
 use super::context::{lap_context, with_context};
-use super::derived::{keep, on_demand};
+use super::derived::{keep, lend_complex, on_demand, once, too_many_elements};
 use super::guard::guard;
 use super::view::{address, handle, put};
 use crate::arrangement::certify::CertifyReport;
@@ -387,29 +387,23 @@ pub unsafe extern "C" fn lap_surface_complex(
     complex: *mut *const lap_complex,
 ) -> i32 {
     with_context(context, |state, host| {
-        if complex.is_null() {
-            return Err(Error::new(Status::NullPointer, "complex is NULL"));
-        }
-        unsafe { put(complex, std::ptr::null()) };
-        let surface = unsafe { handle(surface) }.map_err(|s| Error::new(s, "surface is NULL"))?;
-        let made = match &surface.made {
-            Made::Cells(solid) => Ok(solid),
-            Made::Regions { .. } => Err("the surface is that of a network: lap_network_complex has its regions"),
-            Made::Certified(_) => {
-                Err("the surface is certified: its cells are those of the arrangement that it makes as an operand")
-            }
+        let find = || {
+            let surface = unsafe { handle(surface) }.map_err(|s| Error::new(s, "surface is NULL"))?;
+            let made = match &surface.made {
+                Made::Cells(solid) => Ok(solid),
+                Made::Regions { .. } => Err("the surface is that of a network: lap_network_complex has its regions"),
+                Made::Certified(_) => {
+                    Err("the surface is certified: its cells are those of the arrangement that it makes as an operand")
+                }
+            };
+            let solid = made.map_err(|message| Error::new(Status::BadArgument, message))?;
+            once(&solid.complex, || {
+                let a = &solid.arrangement;
+                let made = state.run(host, |run| solids(a, &joined_cells(a, &solid.inside), run))?;
+                lap_complex::of_arrangement(made.complex, a.resolved.soup.given(), surface.threads)
+                    .map_err(too_many_elements)
+            })
         };
-        let solid = made.map_err(|message| Error::new(Status::BadArgument, message))?;
-        if solid.complex.get().is_none() {
-            let a = &solid.arrangement;
-            let made = state.run(host, |run| solids(a, &joined_cells(a, &solid.inside), run))?;
-            let complex = lap_complex::of_arrangement(made.complex, a.resolved.soup.given(), surface.threads)
-                .map_err(|status| Error::new(status, "the complex has more elements than 32-bit indices can number"))?;
-            solid.complex.get_or_init(|| complex);
-        }
-        if let Some(made) = solid.complex.get() {
-            unsafe { put(complex, std::ptr::from_ref(made)) };
-        }
-        Ok(())
+        unsafe { lend_complex(complex, find) }
     })
 }
