@@ -146,16 +146,8 @@ impl<'a> Plane<'a> {
 
     fn quick_turn(&self, a: VertexId, b: VertexId, c: VertexId) -> Option<Sign> {
         let (u, v) = seen_along(self.axis);
-        let [a, b, c] = [a, b, c].map(|x| self.place(x));
-        let (x1, y1, x2, y2) = (b[u] - a[u], b[v] - a[v], c[u] - a[u], c[v] - a[v]);
-        let (left, right) = (x1 * y2, x2 * y1);
-        let det = left - right;
-        let off = ROUNDOFF * self.most;
-        let bound = 4.0 * off * (x1.abs() + y1.abs() + x2.abs() + y2.abs())
-            + 16.0 * off * off
-            + 4.0 * ROUNDOFF * (left.abs() + right.abs())
-            + TINY;
-        (det.abs() > bound && bound < f64::MAX).then(|| Sign::of(det))
+        let [a, b, c] = [a, b, c].map(|x| self.place(x)).map(|x| [x[u], x[v]]);
+        turn_of_rounded(a, b, c, self.most)
     }
 
     /// Three vertices on one edge, or on one plane that is not this one, as their names say.
@@ -193,6 +185,21 @@ impl<'a> Plane<'a> {
             Support::Plane(p) => corners.iter().all(|x| exact::side(&p, x).is_zero()),
         }
     }
+}
+
+/// The turn a → b → c of points of which these are the coordinates, or that round to them and have none of larger magnitude than `most`, if
+/// doubles tell. All may be multiplied by one power of two.
+#[inline(always)]
+pub fn turn_of_rounded(a: [f64; 2], b: [f64; 2], c: [f64; 2], most: f64) -> Option<Sign> {
+    let (x1, y1, x2, y2) = (b[0] - a[0], b[1] - a[1], c[0] - a[0], c[1] - a[1]);
+    let (left, right) = (x1 * y2, x2 * y1);
+    let det = left - right;
+    let off = ROUNDOFF * most;
+    let bound = 4.0 * off * (x1.abs() + y1.abs() + x2.abs() + y2.abs())
+        + 16.0 * off * off
+        + 4.0 * ROUNDOFF * (left.abs() + right.abs())
+        + TINY;
+    (det.abs() > bound && bound < f64::MAX).then(|| Sign::of(det))
 }
 
 /// The side of a plane of a point that rounds to x, if doubles tell. Each coordinate is off by half an ulp and each product and sum rounds once: within

@@ -7,10 +7,11 @@
 //! Cost: uncut triangles are copied; a cluster costs its triangulation, and its parts once for each member.
 
 use super::data::{Birth, Clusters, Graphs, Resolved, Soup};
-use super::planar::Plane;
+use super::planar::{Plane, turn_of_rounded};
 use super::points;
 use super::triangulate::{NONE, Triangulation, Vertices, curve_order, triangulate};
 use crate::base::{Csr, Error, FaceId, Result, Run, TriangleId, VertexId, Watch};
+use crate::exact::counters::{Predicate, Tier, count};
 use crate::exact::{self, Point, Sign};
 use crate::mesh::projection::seen_along;
 use rayon::prelude::*;
@@ -87,7 +88,7 @@ pub fn resolve(soup: Soup, graphs: Graphs, clusters: &Clusters, pair_count: u64,
 struct Local<'a> {
     plane: Plane<'a>,
     vertices: Vec<VertexId>,
-    /// Seen so that the first member turns to the left.
+    /// Seen so that the first member turns to the left, and times a power of two.
     places: Vec<[f64; 2]>,
     /// Corners of the frame as points.
     frame: Vec<[f64; 3]>,
@@ -109,6 +110,12 @@ impl Vertices for Local<'_> {
     }
     #[inline]
     fn turn(&self, a: u32, b: u32, c: u32) -> Sign {
+        // As the plane would, without looking points up. No coordinate but those of the frame is above 1, and the frame is where it says.
+        let [x, y, z] = [a, b, c].map(|v| self.places[v as usize]);
+        if let Some(sign) = turn_of_rounded(x, y, z, 1.0) {
+            count(Predicate::Projected, Tier::Filter);
+            return sign;
+        }
         let n = self.vertices.len() as u32;
         let sign = if a < n && b < n && c < n {
             let [a, b, c] = [a, b, c].map(|v| self.vertices[v as usize]);
