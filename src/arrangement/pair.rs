@@ -16,7 +16,7 @@ use crate::complex::Origin;
 use crate::exact::{Sign, orient3d};
 use crate::mesh::TriMesh;
 use crate::mesh::projection::{open_axis, turn};
-use crate::mesh::self_intersection::contact;
+use crate::mesh::self_intersection::{certainly_apart, contact};
 
 use super::data::Carrier;
 
@@ -126,18 +126,25 @@ fn order(p: &End, q: &End) -> Sign {
 
 /// Tells what two triangles have in common beyond the corners and sides that they share by index. Returns whether that is anything.
 pub fn meet(mesh: &TriMesh, a: TriangleId, b: TriangleId, sink: &mut impl Sink) -> bool {
-    // Nearly all candidates end here, neighbours in one plane above all, by signs that doubles can tell.
-    if !contact(&mesh.vertices, &mesh.triangles[a.at()], &mesh.triangles[b.at()]) {
+    // Nearly all candidates end here, neighbours in one plane above all, by signs that doubles can tell. Where nothing is shared, the exact
+    // signs of what follows tell as well.
+    let [p, q] = [a, b].map(|t| &mesh.triangles[t.at()]);
+    let shared = p.iter().any(|v| q.contains(v));
+    let in_contact = || contact(&mesh.vertices, p, q);
+    if if shared { !in_contact() } else { certainly_apart(&mesh.corners(a), &mesh.corners(b)) } {
         return false;
     }
     let (a, b) = (Side::new(mesh, a), Side::new(mesh, b));
+    let apart = |s: &[Sign; 3]| !s[0].is_zero() && s[0] == s[1] && s[0] == s[2];
     let of_a = sides(&a, &b);
     if of_a == [Sign::Zero; 3] {
-        return coplanar(&a, &b, sink);
+        return (shared || in_contact()) && coplanar(&a, &b, sink);
+    }
+    if apart(&of_a) {
+        return false;
     }
     let of_b = sides(&b, &a);
-    let apart = |s: &[Sign; 3]| !s[0].is_zero() && s[0] == s[1] && s[0] == s[2];
-    !apart(&of_a) && !apart(&of_b) && crossing(&a, &b, &of_a, &of_b, sink)
+    !apart(&of_b) && crossing(&a, &b, &of_a, &of_b, sink)
 }
 
 /// One end of the common segment: of A alone, of B alone, or of both.

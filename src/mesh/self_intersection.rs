@@ -123,9 +123,15 @@ fn sharing_a_vertex(p: &Corners, q: &Corners) -> bool {
     segment_meets([&q[1], &q[2]], of_q, p)
 }
 
-fn disjoint_by_index(p: &Corners, q: &Corners) -> bool {
+/// Whether two triangles that share no corner are certainly apart, as doubles see them along one axis.
+#[inline]
+pub fn certainly_apart(p: &Corners, q: &Corners) -> bool {
     let axis = largest_axis(p);
-    if parted(p, q, axis) || parted(q, p, axis) {
+    parted(p, q, axis) || parted(q, p, axis)
+}
+
+fn disjoint_by_index(p: &Corners, q: &Corners) -> bool {
+    if certainly_apart(p, q) {
         return false;
     }
     let of_p: [Sign; 3] = std::array::from_fn(|i| orient3d(&q[0], &q[1], &q[2], &p[i]));
