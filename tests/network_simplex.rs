@@ -432,6 +432,33 @@ fn orders_and_scales_change_nothing() {
     }
 }
 
+/// The construction may begin with what a table says of the first two functions: for every pair of sign patterns, with what ties there are
+/// among small integers, the rest of the complex is the one that begins with the bare simplex.
+#[test]
+fn beginning_with_a_table_changes_nothing() {
+    let mut bench = Bench::default();
+    let (mut scratch, mut bare) = (Scratch::default(), SimplexComplex::default());
+    let mut r = Random(23);
+    let mut crossed = [0; 3];
+    for patterns in 0..6561usize {
+        let sign = |k: usize| [-1.0, 0.0, 1.0][patterns / 3usize.pow(k as u32) % 3];
+        let most = 1 + patterns as u64 % 4;
+        let mut values: Values =
+            (0..2).map(|f| (0..4).map(|c| sign(4 * f + c) * (1 + r.below(most)) as f64).collect()).collect();
+        crossed[values.iter().filter(|f| f.contains(&-1.0) && f.contains(&1.0)).count()] += 1;
+        values.extend(if patterns % 2 == 0 { r.integers(2, 3, 2) } else { r.reals(2, 3) });
+        if patterns % 5 == 0 {
+            values.push(values[patterns % 2].iter().map(|x| -3.0 * x).collect());
+        }
+        let all: Vec<usize> = (0..values.len()).collect();
+        let flat = values.concat();
+        arrangement_incremental(3, &flat, &mut scratch, &mut bare);
+        check(&bare, &flat).unwrap();
+        assert_eq!(signature(bench.run(Kind::Arrangement, 3, &values), &all), signature(&bare, &all), "{values:?}");
+    }
+    assert!(crossed.iter().all(|&n| n > 100), "{crossed:?}");
+}
+
 #[test]
 fn mixed_magnitudes() {
     let mut bench = Bench::default();

@@ -2,7 +2,8 @@
 //! several rounds. An argument keeps the lines that contain it.
 
 use lapidary::network::simplex::{
-    Scratch, SimplexComplex, arrangement_incremental as arrangement, interface_incremental as interface,
+    Scratch, SimplexComplex, arrangement as with_tables, arrangement_incremental as arrangement,
+    interface_incremental as interface,
 };
 use std::hint::black_box;
 use std::time::Instant;
@@ -20,6 +21,8 @@ impl Random {
 }
 
 type Build = fn(usize, &[f64], &mut Scratch, &mut SimplexComplex);
+
+type Input<'a> = &'a dyn Fn(&mut Random) -> Vec<f64>;
 
 type Shape = (usize, usize, Build, usize);
 
@@ -60,6 +63,12 @@ pub fn main(wanted: &[String]) {
             values
         }
     };
+    // As networks and batches ask: the first two of them from a table.
+    for n in [3, 10] {
+        for (name, input) in [("random", &reals(n, 3) as Input), ("crossing", &crossing(n))] {
+            measure(wanted, &format!("arrangement, {n} {name}, tables"), (512, 40, with_tables, 3), input);
+        }
+    }
     for n in [1, 2, 3, 10, 30, 100] {
         let (count, rounds) = if n < 30 { (512, 40) } else { (4, 5) };
         measure(wanted, &format!("arrangement, {n} random"), (count, rounds, arrangement, 3), reals(n, 3));

@@ -29,18 +29,25 @@ const FEW: usize = 48;
 pub fn arrangement(dim: usize, values: &[f64], scratch: &mut Scratch, out: &mut SimplexComplex) {
     match find_table(Kind::Arrangement, dim, values) {
         Some(found) => View::new(found).fill(out),
-        None => arrangement_incremental(dim, values, scratch, out),
+        None => construct::<true>(dim, values, scratch, out),
     }
 }
 
 /// The same without tables, which are made from it. Elements have other numbers.
 pub fn arrangement_incremental(dim: usize, values: &[f64], scratch: &mut Scratch, out: &mut SimplexComplex) {
+    construct::<false>(dim, values, scratch, out);
+}
+
+/// `TABLES`: the first two functions may come from a table.
+fn construct<const TABLES: bool>(dim: usize, values: &[f64], scratch: &mut Scratch, out: &mut SimplexComplex) {
     debug_assert!(dim == 2 || dim == 3);
     let Scratch { work, maps } = scratch;
     work.start(dim, values, false);
     work.function_plane.clear();
     work.function_opposite.clear();
-    for f in 0..work.values.len() {
+    let n = work.values.len();
+    let entered = if TABLES && dim == 3 && n > 2 && work.enter_first_two() { 2 } else { 0 };
+    for f in entered..n {
         insert(work, dim, f);
     }
     work.flush_counters();
@@ -165,8 +172,9 @@ fn split(work: &mut Work, positive: u8, negative: u8) -> Option<u32> {
 /// A cell at an edge of the simplex where the function changes its sign; and whether it is sure to be crossed.
 fn seed(work: &mut Work, positive: u8, negative: u8) -> (u32, bool) {
     let unlike = |[a, b]: [u32; 2]| (positive >> a & negative >> b | negative >> a & positive >> b) & 1 != 0;
-    let mut e = EDGE_CORNERS.iter().position(|&e| unlike(e)).expect("corners of both signs") as u32;
-    let start = if positive >> work.edges[e as usize].ends[0] & 1 != 0 { 1 } else { -1 };
+    let on = EDGE_CORNERS.iter().position(|&e| unlike(e)).expect("corners of both signs");
+    let mut e = work.first_part[on];
+    let start = if positive >> EDGE_CORNERS[on][0] & 1 != 0 { 1 } else { -1 };
     loop {
         let edge = work.edges[e as usize];
         let s = work.sign(edge.ends[1]);

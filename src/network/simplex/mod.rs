@@ -7,6 +7,7 @@ pub mod check;
 pub mod data;
 pub mod exact_values;
 mod export;
+mod first_two;
 pub mod interface;
 #[cfg(feature = "plain-signs")]
 mod plain;

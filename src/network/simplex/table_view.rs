@@ -156,6 +156,12 @@ impl View {
         }
     }
 
+    /// Whether loops run the other way round (but for faces whose sides are exchanged).
+    #[inline(always)]
+    pub fn odd(&self) -> bool {
+        self.odd
+    }
+
     #[inline(always)]
     fn functions(&self, set: u8) -> u8 {
         self.function_sets[set as usize & 7]

@@ -110,6 +110,8 @@ pub(super) struct Work {
     /// Interface: an edge of each vertex.
     pub vertex_edge: Vec<u32>,
     pub edges: Vec<Edge>,
+    /// Arrangement: of each edge of the simplex, the part at its first corner (the others follow by `next`).
+    pub first_part: [u32; 6],
     pub faces: Vec<Face>,
     /// Corners of faces: a vertex and the edge from there to the next.
     pub corners: Vec<[u32; 2]>,
@@ -304,6 +306,7 @@ impl Work {
         } else {
             self.vertices.extend_from_slice(&START.vertices[..4]);
             self.edges.extend_from_slice(&START.edges[..6]);
+            self.first_part = [0, 1, 2, 3, 4, 5];
             self.faces.extend_from_slice(&START.faces[..4]);
             self.corners.extend_from_slice(CORNERS[..4].as_flattened());
             self.push_cell(&[0, 2, 4, 6]);
