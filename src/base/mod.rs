@@ -6,6 +6,7 @@ pub mod blocks;
 pub mod csr;
 pub mod error;
 pub mod expression;
+pub mod few;
 pub mod ids;
 pub mod parallel;
 pub mod processor;

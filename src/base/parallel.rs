@@ -35,6 +35,10 @@ impl<T: Copy> Writer<'_, T> {
     pub fn push(&mut self, value: T) {
         self.rest.next().expect("room in this part").write(value);
     }
+    /// All that is left.
+    pub fn fill(&mut self, value: T) {
+        std::mem::take(&mut self.rest).into_slice().fill(MaybeUninit::new(value));
+    }
     #[inline]
     pub fn extend(&mut self, values: impl IntoIterator<Item = T>) {
         values.into_iter().for_each(|value| self.push(value));

@@ -53,6 +53,8 @@ pub struct Knives {
     /// The family of each knife; single planes have families of their own behind the others.
     pub family: Vec<u32>,
     filters: Vec<PlaneFilter>,
+    /// Per family: what finds slabs without asking for signs, if its planes are axis-parallel.
+    places: Vec<Option<Places>>,
     /// Per knife: bound of |n·x̃ + d| below which the sign at a correctly rounded point is not certain.
     rounded_bound: Vec<f64>,
     /// Input plane → knife of its coincidence class.
@@ -92,6 +94,7 @@ impl Knives {
             knives.knife_of[i] = knives.knife_of[representative.at()];
         }
         knives.filters = knives.planes.iter().map(|p| PlaneFilter::new(p, &max_abs)).collect();
+        knives.places = (0..knives.multi_count()).map(|f| Places::new(&knives, f)).collect();
         knives.rounded_bound = knives.planes.iter().map(|p| rounded_bound(p, max_abs)).collect();
         knives
     }
@@ -331,6 +334,51 @@ pub fn classify(mesh: &TriMesh, knives: &Knives) -> Classified {
     Classified { sides, vertex_knives, edge_crossings, edges_on: concat(on), edges_at: concat(at) }
 }
 
+/// A family of axis-parallel planes: no double lies strictly between a plane and the double nearest to it, so comparisons with the latter tell
+/// the slab of a vertex, exactly.
+#[derive(Clone, Debug)]
+struct Places {
+    axis: usize,
+    /// 1, or -1 if the family goes down the axis: places are multiplied by it.
+    direction: f64,
+    /// The nearest doubles, not falling along the family.
+    nearest: Vec<f64>,
+    /// By how much a slab index rises with a member at whose nearest double the vertex is: 0 below, 1 on, 2 above the plane.
+    at: Vec<u32>,
+}
+
+impl Places {
+    fn new(knives: &Knives, family: usize) -> Option<Self> {
+        let members = knives.families[family] as usize..knives.families[family + 1] as usize;
+        let (axis, .., above) = knives.filters[members.start].on_axis()?;
+        let up = (above == Sign::Positive) != knives.reversed[members.start];
+        let mut places = Self { axis, direction: if up { 1.0 } else { -1.0 }, nearest: Vec::new(), at: Vec::new() };
+        for k in members {
+            let (_, place, at, _) = knives.filters[k].on_axis()?;
+            places.nearest.push(places.direction * place);
+            let at = if knives.reversed[k] { -at } else { at };
+            places.at.push((at.to_i8() + 1) as u32);
+        }
+        debug_assert!(places.nearest.is_sorted());
+        Some(places)
+    }
+
+    /// Up to so many members are counted one by one, without a branch: above which of a few planes a vertex is cannot be guessed.
+    const FEW: usize = 16;
+
+    #[inline(always)]
+    fn slab(&self, x: &[f64; 3]) -> u32 {
+        let x = self.direction * x[self.axis];
+        if self.nearest.len() <= Self::FEW {
+            let rise = |(&place, &at): (&f64, &u32)| 2 * (x > place) as u32 + if x == place { at } else { 0 };
+            return self.nearest.iter().zip(&self.at).map(rise).sum();
+        }
+        let below = self.nearest.partition_point(|&place| place < x);
+        let here = self.nearest[below..].iter().take_while(|&&place| place == x).count();
+        2 * below as u32 + self.at[below..below + here].iter().sum::<u32>()
+    }
+}
+
 fn fill_slabs(mesh: &TriMesh, knives: &Knives, sides: &mut Sides) {
     use rayon::prelude::*;
     let multi = sides.multi;
@@ -340,6 +388,10 @@ fn fill_slabs(mesh: &TriMesh, knives: &Knives, sides: &mut Sides) {
     sides.slabs.par_chunks_mut(multi * CHUNK).zip(mesh.vertices.par_chunks(CHUNK)).for_each(|(slabs, vertices)| {
         for (slab, x) in slabs.chunks_exact_mut(multi).zip(vertices) {
             for (f, s) in slab.iter_mut().enumerate() {
+                if let Some(places) = &knives.places[f] {
+                    *s = places.slab(x);
+                    continue;
+                }
                 let (first, last) = (knives.families[f], knives.families[f + 1]);
                 *s = search_slab(knives, first, 0, last - first, |k| knives.side_of_input(k.at(), x));
             }

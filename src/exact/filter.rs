@@ -37,6 +37,11 @@ impl PlaneFilter {
         f
     }
 
+    /// Of an axis-parallel plane: the axis, the double nearest to the plane's place on it, the sign there, and the sign above.
+    pub fn on_axis(&self) -> Option<(usize, f64, Sign, Sign)> {
+        (self.axis < 3).then_some((self.axis, self.place, self.at, self.above))
+    }
+
     /// The side of a vertex, or `None` where the bound does not decide (then ask [`side`]). Always known for
     /// axis-parallel planes: no double lies strictly between the plane and the double nearest to it, so
     /// comparing with that one, whose own sign is known, is exact.

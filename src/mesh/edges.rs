@@ -11,9 +11,9 @@
 
 use super::EdgeUse;
 use crate::base::csr::Walk;
-use crate::base::parallel::{self, each_part, ranges, recast, write_parts3};
+use crate::base::few::sort_few;
+use crate::base::parallel::{self, each_part, ranges, recast, write_parts, write_parts3};
 use crate::base::{Csr, EdgeId, TriangleId, VertexId};
-use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::atomic::{AtomicU32, Ordering};
 
@@ -75,7 +75,7 @@ pub fn edge_table(vertex_count: usize, triangles: &[[VertexId; 3]]) -> EdgeTable
         for row in offsets[vertices.start..=vertices.end].windows(2) {
             let end = start + (row[1] - row[0]) as usize;
             let bucket = &mut part[start..end];
-            sort_bucket(bucket);
+            sort_few(bucket);
             count += !bucket.is_empty() as usize + bucket.windows(2).filter(|w| w[0] >> 33 != w[1] >> 33).count();
             start = end;
         }
@@ -83,11 +83,10 @@ pub fn edge_table(vertex_count: usize, triangles: &[[VertexId; 3]]) -> EdgeTable
     });
     let first = parallel::offsets(edge_counts.iter().copied());
     // Every side of two vertices has one use, so every place is written once, by whichever thread has the use.
-    let places: Vec<[AtomicU32; 3]> = (0..triangles.len())
-        .into_par_iter()
-        .with_min_len(LEAST)
-        .map(|_| std::array::from_fn(|_| AtomicU32::new(EdgeId::NONE.0)))
-        .collect();
+    let lengths: Vec<usize> = ranges(triangles.len(), LEAST).into_iter().map(|range| range.len()).collect();
+    let places = write_parts(&lengths, |_, part| part.fill([EdgeId::NONE; 3]));
+    // SAFETY: an id is a transparent word, and so is an atomic one.
+    let places: Vec<[AtomicU32; 3]> = unsafe { recast(places) };
     let use_counts: Vec<usize> = bounds.windows(2).map(|w| (offsets[w[1]] - offsets[w[0]]) as usize).collect();
     let items = &sides.items;
     let mut row_counts = edge_counts.clone();
@@ -123,24 +122,6 @@ pub fn edge_table(vertex_count: usize, triangles: &[[VertexId; 3]]) -> EdgeTable
 
 /// Sides in one task at least.
 const LEAST: usize = 1 << 14;
-
-/// Insertion sort for the usual handful, which arrives nearly sorted; the library's sort beyond.
-#[inline]
-fn sort_bucket(bucket: &mut [u64]) {
-    if bucket.len() > 24 {
-        bucket.sort_unstable();
-        return;
-    }
-    for i in 1..bucket.len() {
-        let x = bucket[i];
-        let mut j = i;
-        while j > 0 && bucket[j - 1] > x {
-            bucket[j] = bucket[j - 1];
-            j -= 1;
-        }
-        bucket[j] = x;
-    }
-}
 
 /// Edges rise strictly, uses rise by triangle, sides and directions agree with the triangles, and each side of each
 /// triangle is used once.

@@ -10,6 +10,7 @@
 
 use super::Network;
 use crate::base::csr::Walk;
+use crate::base::few::sort_few;
 use crate::base::parallel::map_ranges;
 use crate::base::{Csr, EdgeId, PolygonId, VertexId};
 use std::ops::Range;
@@ -175,21 +176,4 @@ pub fn find_edges(network: &Network) -> Edges {
     });
     let (ends, polygons) = parts.into_iter().unzip();
     Edges { ends: Csr::concat(ends), polygons: Csr::concat(polygons) }
-}
-
-/// Insertion sort: rows are short and nearly in order.
-#[inline]
-fn sort_few(row: &mut [u64]) {
-    if row.len() > 24 {
-        return row.sort_unstable();
-    }
-    for i in 1..row.len() {
-        let item = row[i];
-        let mut j = i;
-        while j > 0 && row[j - 1] > item {
-            row[j] = row[j - 1];
-            j -= 1;
-        }
-        row[j] = item;
-    }
 }

@@ -17,6 +17,7 @@ use super::patches::{HalfPatch, Patches};
 use super::runs::node_vertices;
 use super::shells::Shells;
 use super::{Domain, Kind};
+use crate::base::parallel::map_ranges;
 use crate::base::{FunctionId, NodeId, UnionFind, VertexId};
 use crate::exact::Sign;
 
@@ -54,14 +55,29 @@ pub fn shoot(setting: &Setting, patches: &Patches, shells: &Shells) -> Option<Un
     let on_edges = nodes.partition_point(|n| n[1].is_some() && n[2].is_none());
     // The lowest vertex of each component, and where the vertices on edges from each row of nodes are.
     let row = Divide::by(grid.strides()[1]);
-    let mut lowest = vec![(NodeId::NONE, VertexId::NONE); patches.component_count];
-    let mut rows = vec![[u32::MAX, 0]; grid.node_count() / grid.strides()[1]];
-    for (v, (here, patch)) in nodes[..on_edges].iter().zip(&patches.at_vertex).enumerate() {
-        let lowest = &mut lowest[patches.component[patch.at()].at()];
-        *lowest = (*lowest).min((here[0], VertexId::of(v)));
-        let [first, last] = &mut rows[row.quotient(here[0].0)];
-        *first = (*first).min(v as u32);
-        *last = v as u32;
+    let components = patches.component_count;
+    let row_count = grid.node_count() / grid.strides()[1];
+    // Tables for each task, unless they were larger than what the task reads.
+    let least = (1 << 14).max(components + row_count);
+    let parts = map_ranges(on_edges, least, |range| {
+        let mut lowest = vec![(NodeId::NONE, VertexId::NONE); components];
+        let mut rows = vec![[u32::MAX, 0]; row_count];
+        for (v, (here, patch)) in range.clone().zip(nodes[range.clone()].iter().zip(&patches.at_vertex[range])) {
+            let lowest = &mut lowest[patches.component[patch.at()].at()];
+            *lowest = (*lowest).min((here[0], VertexId::of(v)));
+            let [first, last] = &mut rows[row.quotient(here[0].0)];
+            *first = (*first).min(v as u32);
+            *last = v as u32;
+        }
+        (lowest, rows)
+    });
+    let mut parts = parts.into_iter();
+    let (mut lowest, mut rows) = parts.next().expect("one part at least");
+    for (others, their_rows) in parts {
+        lowest.iter_mut().zip(others).for_each(|(mine, other)| *mine = (*mine).min(other));
+        rows.iter_mut()
+            .zip(their_rows)
+            .for_each(|(mine, other)| *mine = [mine[0].min(other[0]), mine[1].max(other[1])]);
     }
     // The vertex on an edge that a ray meets first when it comes from the higher node. Vertices on an edge follow one another.
     let highest_on = |low: NodeId, high: NodeId| {
