@@ -21,8 +21,8 @@
 use super::flatten::flatten;
 use super::snap::{Snapped, snap};
 use super::{Arrangement, ArrangementOptions, Extraction, Operand, Selection, arrange, choose, extract};
-use crate::base::union_find::UnionFind;
-use crate::base::{FaceId, Result, Run, TriangleId, VertexId, Watch};
+use crate::base::vector::{cross, dot, length, minus};
+use crate::base::{FaceId, Result, Run, TriangleId, UnionFind, VertexId, Watch};
 use crate::exact::{self, Point};
 use crate::mesh::bvh::build_bvh_watched;
 use crate::mesh::self_intersection::self_intersections_watched;
@@ -407,7 +407,7 @@ fn turn_thin_cells(a: &Arrangement, corners: &[bool], thickness: f64, inside: &m
         }
         let x = corner.map(|v| a.coords(v));
         let normal = cross(minus(x[1], x[0]), minus(x[2], x[0]));
-        let size = 0.5 * dot(normal, normal).sqrt();
+        let size = 0.5 * length(normal);
         common[a.cells.patch[f.at()].at()] += size;
         for (c, sign) in [(behind, 1.0), (before, -1.0)] {
             volume[c.at()] += sign * dot(normal, minus(x[0], origin[c.at()])) / 6.0;
@@ -436,18 +436,6 @@ fn turn_thin_cells(a: &Arrangement, corners: &[bool], thickness: f64, inside: &m
         }
     }
     before.iter().zip(inside).filter(|(x, y)| x != y).count()
-}
-
-pub(super) fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|i| a[i] - b[i])
-}
-
-pub(super) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-pub(super) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 /// The solid, with the sources of the surface that it was made from.

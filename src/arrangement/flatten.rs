@@ -20,12 +20,11 @@
 //!
 //! Cost: two or three arrangements of the part in its plane.
 
-use super::certify::minus;
 use super::slabs::{Slab, slabs};
-use super::snap::{Snapped, length, near_edges, split_by};
+use super::snap::{Snapped, near_edges, split_by};
 use super::{Operand, Resolved, clusters, crossings, intersect, resolve, soup};
-use crate::base::union_find::UnionFind;
-use crate::base::{FaceId, Result, Run, TriangleId, VertexId};
+use crate::base::vector::{length, minus};
+use crate::base::{FaceId, Result, Run, TriangleId, UnionFind, VertexId};
 use crate::mesh::bvh::build_bvh;
 use crate::mesh::projection::seen_along;
 use crate::mesh::validate;

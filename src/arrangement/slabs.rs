@@ -12,7 +12,7 @@
 //!
 //! Cost: linear in a part, for each of its planes, some four; seeds within a part that was found cost nothing.
 
-use super::certify::{cross, dot, minus};
+use crate::base::vector::{cross, dot, length, minus};
 use crate::base::{Csr, TriangleId};
 
 /// Planes tried for a part, and seeds that may lead to nothing.
@@ -31,11 +31,10 @@ pub struct Flat {
 impl Flat {
     fn through(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> Option<Self> {
         let normal = cross(minus(b, a), minus(c, a));
-        let length = dot(normal, normal).sqrt();
-        let normal = normal.map(|x| x / length);
-        let size = |i: usize| normal[i].abs();
-        let axis = (1..3).fold(0, |best, i| if size(i) > size(best) { i } else { best });
-        (length > 0.0 && normal.iter().all(|x| x.is_finite())).then_some(Self { origin: a, normal, axis })
+        let size = length(normal);
+        let normal = normal.map(|x| x / size);
+        let axis = (1..3).fold(0, |best, i| if normal[i].abs() > normal[best].abs() { i } else { best });
+        (size > 0.0 && normal.iter().all(|x| x.is_finite())).then_some(Self { origin: a, normal, axis })
     }
 
     fn distance(&self, x: [f64; 3]) -> f64 {
