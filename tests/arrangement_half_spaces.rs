@@ -11,7 +11,7 @@ use lapidary::complex::check::check_exact;
 use lapidary::complex::exact_values::cell_volume;
 use lapidary::complex::{check, check_volumes, moments};
 use lapidary::cut::{CutOptions, cut};
-use lapidary::exact::{Plane, Sign, round_rational};
+use lapidary::exact::{Plane, Sign, counters, round_rational};
 use lapidary::mesh::TriMesh;
 use rug::Rational;
 use std::collections::BTreeMap;
@@ -367,6 +367,26 @@ fn a_mesh_that_intersects_itself() {
         cell_volumes(&a).into_iter().enumerate().filter(|(c, _)| dense(&a, *c)[0] > 0).map(|(_, v)| v).sum();
     assert_eq!(sum, expected);
     println!("bull: {} cells, {} without planes", a.cell_count(), alone.cell_count());
+}
+
+#[test]
+fn parallel_planes_cost_their_square_at_most() {
+    // Each side of the box is cut into strips, and each half-space has what of them is in it.
+    let decisions = |n: usize| {
+        let planes: Vec<Plane> = (0..n).map(|i| plane([1.0, 0.0, 0.0], -(i as f64) / n as f64)).collect();
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+        pool.install(|| {
+            counters::take();
+            counters::enable(true);
+            let a = arranged(&[], &planes, Some([[-2.0; 3], [2.0; 3]]));
+            counters::enable(false);
+            assert_eq!(a.cell_count(), n + 1);
+            let counts = counters::take();
+            counters::TIERS.iter().map(|t| counts.tier(*t)).sum::<u64>()
+        })
+    };
+    let [some, twice] = [100, 200].map(decisions);
+    assert!(some > 0 && twice < 5 * some, "{some} decisions for 100 planes, {twice} for 200");
 }
 
 #[test]
