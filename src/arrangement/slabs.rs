@@ -13,7 +13,7 @@
 //! Cost: linear in a part, for each of its planes, some four; seeds within a part that was found cost nothing.
 
 use crate::base::vector::{cross, dot, length, minus};
-use crate::base::{Csr, TriangleId};
+use crate::base::{Csr, Result, Run, TriangleId};
 
 /// Planes tried for a part, and seeds that may lead to nothing.
 const PLANES: usize = 12;
@@ -59,7 +59,7 @@ pub struct Slab {
 
 impl Slab {
     /// Members' corners are its corners; what else has one of these is in `others`.
-    pub fn check(&self, triangles: &[[i32; 3]]) -> Result<(), String> {
+    pub fn check(&self, triangles: &[[i32; 3]]) -> std::result::Result<(), String> {
         let inside = |v: &i32| self.corners.binary_search(v).is_ok();
         for (t, corners) in triangles.iter().enumerate() {
             let t = t as u32;
@@ -85,8 +85,14 @@ struct Search<'a> {
     count: u32,
 }
 
-/// Finds such parts around contacts.
-pub fn slabs(coords: &[[f64; 3]], triangles: &[[i32; 3]], contacts: &[[TriangleId; 2]], near: f64) -> Vec<Slab> {
+/// Finds such parts around contacts. Errors: `Cancelled`.
+pub fn slabs(
+    coords: &[[f64; 3]],
+    triangles: &[[i32; 3]],
+    contacts: &[[TriangleId; 2]],
+    near: f64,
+    run: &mut Run,
+) -> Result<Vec<Slab>> {
     let corners = || triangles.iter().enumerate().flat_map(|(t, c)| c.iter().map(move |v| (*v as usize, t as u32)));
     let both = || contacts.iter().flat_map(|[p, q]| [(p.at(), q.0), (q.at(), p.0)]);
     let mut search = Search {
@@ -115,6 +121,7 @@ pub fn slabs(coords: &[[f64; 3]], triangles: &[[i32; 3]], contacts: &[[TriangleI
         if !seed.iter().all(free) {
             continue;
         }
+        run.tick("flatten", 0.0)?;
         match search.widest(seed[0]) {
             Some(mut slab)
                 if slab.members.binary_search(&seed[1].0).is_ok()
@@ -133,7 +140,7 @@ pub fn slabs(coords: &[[f64; 3]], triangles: &[[i32; 3]], contacts: &[[TriangleI
             break;
         }
     }
-    found
+    Ok(found)
 }
 
 impl Search<'_> {
