@@ -170,6 +170,7 @@ fn repair(now: &mut CertifiedSurface, options: &CertifyOptions, run: &mut Run) -
     let (before, unit) = (now.triangles.len().max(16), now.report.unit);
     let most = options.growth.saturating_mul(before);
     let mut best: Option<(Found, CertifiedSurface)> = None;
+    run.tick("certify", 0.0)?;
     loop {
         tidy(now);
         // As nobody knows how many rounds there are, each takes half of what is left of the whole.
@@ -218,6 +219,7 @@ fn repair(now: &mut CertifiedSurface, options: &CertifyOptions, run: &mut Run) -
         run.tick("certify", 0.0)?;
         let mut inside = choose(&a, Selection::Resolve)?;
         let mut solid = extract(&a, &inside)?;
+        run.tick("certify", 0.0)?;
         let mut made = run.watched("certify", 0.0, |watch| rounded(&a, &solid, watch))?;
         if made.count > 0 {
             let turned = turn_thin_cells(&a, &made.corners, THIN * unit, &mut inside);
@@ -228,6 +230,7 @@ fn repair(now: &mut CertifiedSurface, options: &CertifyOptions, run: &mut Run) -
             }
         }
         *now = next(std::mem::take(now), &solid);
+        run.tick("certify", 0.0)?;
         if let Some(round) = now.report.rounds.last_mut() {
             round.rounded = made.count;
         }

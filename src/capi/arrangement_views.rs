@@ -336,7 +336,7 @@ pub unsafe extern "C" fn lap_arrangement_cell_volume_exact(
 /// The bounded cells as a complex on which all functions for lap_complex work but lap_complex_face_keys (LAP_ERR_BAD_ARGUMENT). Its mesh is that of all operands:
 /// vertices and triangles count through them.
 ///
-/// Cell c is cell c + 1 of the arrangement, and so has the winding numbers that lap_arrangement_windings gives for that. Faces are those of the
+/// Cell c is cell c + 1 of the arrangement, and so has the winding numbers that lap_arrangement_cells gives for that. Faces are those of the
 /// arrangement that divide, those parts of one triangle with the same births joined that only the triangulation separates: with holes, by the
 /// lowest part. A face lies on the first triangle that it is a part of (LAP_SUPPORT_TRIANGLE); there may be a cell on either of its sides, or on both.
 /// Vertices are those of the arrangement that such faces have, rising. lap_arrangement_complex_places tells which.
