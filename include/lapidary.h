@@ -2839,7 +2839,7 @@ int32_t lap_arrangement_options_init(struct lap_arrangement_options *options,
 
  Errors: LAP_ERR_BAD_MESH with a message that names the operand, and all defects of one kind (lap_context_last_defects):
  LAP_DEFECT_NON_FINITE_COORDINATE and LAP_DEFECT_INDEX_OUT_OF_RANGE (vertices and triangles count through the operands), or
- LAP_DEFECT_UNBALANCED_EDGE; LAP_ERR_TOO_LARGE, LAP_ERR_NULL_POINTER, LAP_ERR_BAD_ARGUMENT for a negative count,
+ LAP_DEFECT_UNBALANCED_EDGE (the first hundred; the message counts them); LAP_ERR_TOO_LARGE, LAP_ERR_NULL_POINTER, LAP_ERR_BAD_ARGUMENT for a negative count,
  LAP_ERR_CANCELLED, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: n log n in the triangles to find those that meet; some microseconds for each pair
  that does; else memory is touched.
  */
