@@ -4,7 +4,10 @@
 
 #include "lapidary.hpp"
 
+#include <algorithm>
+#include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <map>
@@ -77,6 +80,47 @@ inline std::string signs(const lapidary::complex &complex, std::int32_t cell, st
     std::string text;
     for (std::int32_t plane = 0; plane < plane_count; ++plane) text += complex.cell_side(cell, plane) > 0 ? '+' : '-';
     return text;
+}
+
+/* The folder of CGAL's meshes: LAPIDARY_CGAL_MESHES, or where the build found them; empty, and said so, where they are not. */
+inline std::string cgal_meshes()
+{
+    const char *from_environment = std::getenv("LAPIDARY_CGAL_MESHES");
+    std::string folder = from_environment != nullptr ? from_environment : "";
+#ifdef LAPIDARY_TEST_MESHES
+    if (folder.empty()) folder = LAPIDARY_TEST_MESHES;
+#endif
+    if (!folder.empty() && std::filesystem::exists(folder)) return folder;
+    std::cout << "CGAL's meshes: skipped, they were not given (LAPIDARY_CGAL_MESHES)" << std::endl;
+    return {};
+}
+
+/* The meshes in a folder that are wanted by name, or all of them; sorted. */
+inline std::vector<std::string> mesh_files(const std::string &folder, const std::vector<std::string> &wanted, bool everything)
+{
+    std::vector<std::string> files;
+    for (const auto &entry : std::filesystem::directory_iterator(folder)) {
+        const std::string file = entry.path().filename().string(), extension = entry.path().extension().string();
+        const bool listed = std::find(wanted.begin(), wanted.end(), file) != wanted.end();
+        if (listed || (everything && (extension == ".off" || extension == ".obj" || extension == ".stl"))) files.push_back(file);
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+/* LAPIDARY_PART=i/n: the part i of n that a process is to do; 0 of 1 where it is not set. Text that says something else ends the program. */
+struct part {
+    std::size_t i = 0, n = 1;
+};
+inline part own_part()
+{
+    part p;
+    const char *asked_for = std::getenv("LAPIDARY_PART");
+    if (asked_for != nullptr && (std::sscanf(asked_for, "%zu/%zu", &p.i, &p.n) != 2 || p.i >= p.n)) {
+        std::cerr << "LAPIDARY_PART=" << asked_for << ": it is to be i/n, i from 0\n";
+        std::exit(2);
+    }
+    return p;
 }
 
 } // namespace fixture

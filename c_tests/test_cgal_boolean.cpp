@@ -420,30 +420,12 @@ int main()
         seconds_for_corefinement = 300;
     }
     finds_defects();
-    const char *from_environment = std::getenv("LAPIDARY_CGAL_MESHES");
-    std::string folder = from_environment != nullptr ? from_environment : "";
-#ifdef LAPIDARY_TEST_MESHES
-    if (folder.empty()) folder = LAPIDARY_TEST_MESHES;
-#endif
-    if (folder.empty() || !std::filesystem::exists(folder)) {
-        std::cout << "CGAL's meshes: skipped, they were not given (LAPIDARY_CGAL_MESHES)" << std::endl;
-        return check_result();
-    }
-    std::size_t part = 0, parts = 1;
-    if (const char *asked_for = std::getenv("LAPIDARY_PART")) {
-        const bool understood = std::sscanf(asked_for, "%zu/%zu", &part, &parts) == 2 && part < parts;
-        CHECK(understood);
-        if (!understood) return check_result();
-    }
+    const std::string folder = fixture::cgal_meshes();
+    if (folder.empty()) return check_result();
+    const auto [part, parts] = fixture::own_part();
     const std::vector<std::string> few{"tetrahedron.off", "pyramid.off", "star.off",  "hole.off",  "3torus.off",
                                        "cross.off",       "u.off",       "joint.off", "eight.off"};
-    std::vector<std::string> files;
-    for (const auto &entry : std::filesystem::directory_iterator(folder)) {
-        const std::string file = entry.path().filename().string(), extension = entry.path().extension().string();
-        const bool listed = std::find(few.begin(), few.end(), file) != few.end();
-        if (listed || (everything && (extension == ".off" || extension == ".obj" || extension == ".stl"))) files.push_back(file);
-    }
-    std::sort(files.begin(), files.end());
+    const std::vector<std::string> files = fixture::mesh_files(folder, few, everything);
     /* Read when they are needed; nothing where a file is no clean mesh. */
     std::map<std::size_t, std::optional<fixture::solid>> read;
     const auto solid = [&](std::size_t i) -> const std::optional<fixture::solid> & {

@@ -325,35 +325,17 @@ int main()
     const bool everything = std::getenv("LAPIDARY_LONG") != nullptr;
     finds_defects();
     predicates_are_right();
-    std::size_t part = 0, parts = 1;
-    if (const char *asked_for = std::getenv("LAPIDARY_PART")) {
-        const bool understood = std::sscanf(asked_for, "%zu/%zu", &part, &parts) == 2 && part < parts;
-        CHECK(understood);
-        if (!understood) return check_result();
-    }
+    const auto [part, parts] = fixture::own_part();
     const fixture::all data = fixture::read(LAPIDARY_TEST_DATA "/cut_small.txt");
     if (part == 0) {
         for (const auto &[name, s] : data.meshes) all_sets(name, s.xyz, s.indices, everything);
     }
-    const char *from_environment = std::getenv("LAPIDARY_CGAL_MESHES");
-    std::string folder = from_environment != nullptr ? from_environment : "";
-#ifdef LAPIDARY_TEST_MESHES
-    if (folder.empty()) folder = LAPIDARY_TEST_MESHES;
-#endif
-    if (folder.empty() || !std::filesystem::exists(folder)) {
-        std::cout << "CGAL's meshes: skipped, they were not given (LAPIDARY_CGAL_MESHES)" << std::endl;
-        return check_result();
-    }
+    const std::string folder = fixture::cgal_meshes();
+    if (folder.empty()) return check_result();
     /* Models that need repair; with LAPIDARY_LONG every closed mesh that does not intersect itself. */
     const std::vector<std::string> few{"tetrahedron.off", "beam.off",   "cross.off",     "anchor.off",
                                        "pinion.off",      "fandisk.off", "triceratops.off", "larger_sphere.off"};
-    std::vector<std::string> files;
-    for (const auto &entry : std::filesystem::directory_iterator(folder)) {
-        const std::string file = entry.path().filename().string(), extension = entry.path().extension().string();
-        const bool listed = std::find(few.begin(), few.end(), file) != few.end();
-        if (listed || (everything && (extension == ".off" || extension == ".obj" || extension == ".stl"))) files.push_back(file);
-    }
-    std::sort(files.begin(), files.end());
+    const std::vector<std::string> files = fixture::mesh_files(folder, few, everything);
     std::size_t models = 0;
     for (std::size_t i = part; i < files.size(); i += parts) {
         const std::string &file = files[i];

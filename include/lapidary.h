@@ -2839,7 +2839,7 @@ int32_t lap_arrangement_options_init(struct lap_arrangement_options *options,
 
  Errors: LAP_ERR_BAD_MESH with a message that names the operand, and all defects of one kind (lap_context_last_defects):
  LAP_DEFECT_NON_FINITE_COORDINATE and LAP_DEFECT_INDEX_OUT_OF_RANGE (vertices and triangles count through the operands), or
- LAP_DEFECT_UNBALANCED_EDGE; LAP_ERR_TOO_LARGE, LAP_ERR_NULL_POINTER, LAP_ERR_BAD_ARGUMENT for a negative count,
+ LAP_DEFECT_UNBALANCED_EDGE (the first hundred; the message counts them); LAP_ERR_TOO_LARGE, LAP_ERR_NULL_POINTER, LAP_ERR_BAD_ARGUMENT for a negative count,
  LAP_ERR_CANCELLED, LAP_ERR_OUT_OF_MEMORY, LAP_ERR_BUSY. Cost: n log n in the triangles to find those that meet; some microseconds for each pair
  that does; else memory is touched.
  */
@@ -2865,7 +2865,8 @@ int32_t lap_arrangement_new(struct lap_context *context,
 
  Errors: as lap_arrangement_new; LAP_ERR_BAD_PLANE with all planes that are not finite (LAP_DEFECT_NON_FINITE_PLANE) or have no normal
  (LAP_DEFECT_ZERO_NORMAL); LAP_ERR_BAD_ARGUMENT for bounds that are no box (finite, the lowest corner lower in every coordinate), or NULL where operands have no
- vertices. Cost: as there, for each half-space a look at every vertex and triangle, and in each plane about the square of the number of planes.
+ vertices. Cost: as there, for each half-space a look at every vertex and triangle, and in each plane about the square of the number of planes
+ that it meets in the box: n planes in general position make some n³ / 6 cells there, n parallel ones n + 1 and n² births.
  */
 int32_t lap_arrangement_new_half_spaces(struct lap_context *context,
                                         int64_t n_operands,
@@ -3066,7 +3067,7 @@ int32_t lap_arrangement_cell_volume_exact(struct lap_context *context,
  The bounded cells as a complex on which all functions for lap_complex work but lap_complex_face_keys (LAP_ERR_BAD_ARGUMENT). Its mesh is that of all operands:
  vertices and triangles count through them.
 
- Cell c is cell c + 1 of the arrangement, and so has the winding numbers that lap_arrangement_windings gives for that. Faces are those of the
+ Cell c is cell c + 1 of the arrangement, and so has the winding numbers that lap_arrangement_cells gives for that. Faces are those of the
  arrangement that divide, those parts of one triangle with the same births joined that only the triangulation separates: with holes, by the
  lowest part. A face lies on the first triangle that it is a part of (LAP_SUPPORT_TRIANGLE); there may be a cell on either of its sides, or on both.
  Vertices are those of the arrangement that such faces have, rising. lap_arrangement_complex_places tells which.

@@ -106,7 +106,7 @@ fn flattened() {
     };
     let before = contacts(&e.coords, &triangles);
     let near = 8.0 * 10.0 * f64::EPSILON;
-    let found = slabs(&e.coords, &triangles, &before, near);
+    let found = slabs(&e.coords, &triangles, &before, near, &mut Run::quiet()).unwrap();
     assert!(found.len() >= 2, "{}", found.len());
     found.iter().for_each(|s| assert_eq!(s.check(&triangles), Ok(())));
     let mut coords = e.coords.clone();

@@ -11,7 +11,7 @@ use lapidary::complex::check::check_exact;
 use lapidary::complex::exact_values::cell_volume;
 use lapidary::complex::{check, check_volumes, moments};
 use lapidary::cut::{CutOptions, cut};
-use lapidary::exact::{Plane, Sign, round_rational};
+use lapidary::exact::{Plane, Sign, counters, round_rational};
 use lapidary::mesh::TriMesh;
 use rug::Rational;
 use std::collections::BTreeMap;
@@ -270,6 +270,50 @@ fn small_soups_and_planes() {
     assert!(cells > 2000 && planes_in_all > 500, "{cells} cells, {planes_in_all} planes");
 }
 
+/// Everything times a power of two, planes times another one.
+fn scaled(
+    meshes: &[Soup],
+    planes: &[Plane],
+    bounds: [[f64; 3]; 2],
+    [k, m]: [i32; 2],
+) -> (Vec<Soup>, Vec<Plane>, Bounds) {
+    let two = |x: f64, k: i32| x * 2f64.powi(k / 2) * 2f64.powi(k - k / 2);
+    let place = |x: &[f64; 3]| x.map(|c| two(c, k));
+    let mesh = |s: &Soup| Soup { vertices: s.vertices.iter().map(place).collect(), triangles: s.triangles.clone() };
+    let plane = |p: &Plane| plane(p.n.map(|c| two(c, m)), two(p.d, k + m));
+    (meshes.iter().map(mesh).collect(), planes.iter().map(plane).collect(), Some(bounds.map(|x| place(&x))))
+}
+
+#[test]
+fn coordinates_and_planes_of_any_magnitude() {
+    // Small whole numbers times powers of two: a few of the least doubles there are, and up to the largest ones.
+    let mut random = Random(12);
+    for round in 0..60 {
+        let mut point = || [0; 3].map(|_| random.below(7) as f64);
+        let meshes: Vec<Soup> = (0..round % 4)
+            .map(|_| Soup {
+                vertices: (0..4).map(|_| point()).collect(),
+                triangles: vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]],
+            })
+            .collect();
+        let planes: Vec<Plane> = (0..2 + round % 3).filter_map(|_| through([point(), point(), point()])).collect();
+        if planes.is_empty() {
+            continue;
+        }
+        let bounds = [[0.0; 3], [7.0; 3]];
+        let expected = arranged(&meshes, &planes, Some(bounds)).cell_count();
+        for powers in [[-1074, 1010], [-1074, 0], [-1072, 600], [-1060, 900], [1020, -1070], [1021, 0], [1020, -600]] {
+            let (meshes, planes, bounds) = scaled(&meshes, &planes, bounds, powers);
+            let finite = planes.iter().all(|p| p.d.is_finite() && p.n.iter().all(|c| c.is_finite()));
+            if finite {
+                let what = format!("round {round}, times two to the {powers:?}");
+                let a = verified(&meshes, &planes, bounds, &what);
+                assert_eq!(a.cell_count(), expected, "{what}");
+            }
+        }
+    }
+}
+
 #[test]
 fn models_are_cut_as_by_the_cut_engine() {
     let mut runs = 0;
@@ -323,6 +367,26 @@ fn a_mesh_that_intersects_itself() {
         cell_volumes(&a).into_iter().enumerate().filter(|(c, _)| dense(&a, *c)[0] > 0).map(|(_, v)| v).sum();
     assert_eq!(sum, expected);
     println!("bull: {} cells, {} without planes", a.cell_count(), alone.cell_count());
+}
+
+#[test]
+fn parallel_planes_cost_their_square_at_most() {
+    // Each side of the box is cut into strips, and each half-space has what of them is in it.
+    let decisions = |n: usize| {
+        let planes: Vec<Plane> = (0..n).map(|i| plane([1.0, 0.0, 0.0], -(i as f64) / n as f64)).collect();
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+        pool.install(|| {
+            counters::take();
+            counters::enable(true);
+            let a = arranged(&[], &planes, Some([[-2.0; 3], [2.0; 3]]));
+            counters::enable(false);
+            assert_eq!(a.cell_count(), n + 1);
+            let counts = counters::take();
+            counters::TIERS.iter().map(|t| counts.tier(*t)).sum::<u64>()
+        })
+    };
+    let [some, twice] = [100, 200].map(decisions);
+    assert!(some > 0 && twice < 5 * some, "{some} decisions for 100 planes, {twice} for 200");
 }
 
 #[test]

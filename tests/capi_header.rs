@@ -96,6 +96,29 @@ fn every_function_says_its_errors_and_comes_with_a_test() {
 }
 
 /// The shared library of the profile that this test was built with.
+/// All words that begin with `lap_` or `LAP_`.
+fn names(text: &str) -> BTreeSet<&str> {
+    let part = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    text.split(|c| !part(c)).filter(|w| w.to_ascii_lowercase().starts_with("lap_")).collect()
+}
+
+#[test]
+fn comments_name_only_what_there_is() {
+    let text = header();
+    let (mut code, mut comments) = (String::new(), String::new());
+    for piece in text.split_inclusive("*/") {
+        let (before, comment) = piece.split_once("/*").unwrap_or((piece, ""));
+        code += before;
+        comments += comment;
+    }
+    let declared = names(&code);
+    assert!(declared.len() > 200, "{}", declared.len());
+    // Patterns end with an underscore, or are about any noun.
+    let pattern = |n: &&str| n.ends_with('_') || n.starts_with("lap_noun_");
+    let missing: Vec<&str> = names(&comments).into_iter().filter(|n| !pattern(n) && !declared.contains(n)).collect();
+    assert!(missing.is_empty(), "{missing:?}");
+}
+
 fn library() -> PathBuf {
     let mut dir = std::env::current_exe().unwrap();
     dir.pop();

@@ -211,19 +211,4 @@ int bench(const Options& options) {
 
 } // namespace
 
-int main(int argc, char** argv) {
-  try {
-    const Options options = parse(std::vector<std::string>(argv + 1, argv + argc));
-    if (options.help) {
-      std::cout << usage;
-      return 0;
-    }
-    return bench(options);
-  } catch (const UsageError& error) {
-    std::cerr << "bench_cut: " << error.what() << "\n\n" << usage;
-    return 2;
-  } catch (const std::exception& error) {
-    std::cerr << "bench_cut: " << error.what() << '\n';
-    return 3;
-  }
-}
+int main(int argc, char** argv) { return run_bench("bench_cut", usage, argc, argv, parse, bench); }

@@ -2,6 +2,7 @@
 #ifndef LAPIDARY_BENCHES_CONTEST_HPP
 #define LAPIDARY_BENCHES_CONTEST_HPP
 
+#include "arguments.hpp"
 #include "isolate.hpp"
 
 #include <nlohmann/json.hpp>
@@ -10,6 +11,7 @@
 #include <cstddef>
 #include <fstream>
 #include <functional>
+#include <iostream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -50,6 +52,23 @@ inline void write_report(const std::string& path, const nlohmann::json& report) 
   file << report.dump(2) << '\n';
   file.close();
   if (!file) throw std::runtime_error(path + ": cannot be written");
+}
+
+// What `main` does: options, help, the contest, and what is thrown as an exit code.
+template <typename Parse, typename Bench>
+int run_bench(const char* name, const char* usage, int argc, char** argv, Parse parse, Bench bench) {
+  try {
+    const auto options = parse(std::vector<std::string>(argv + 1, argv + argc));
+    if (!options.help) return bench(options);
+    std::cout << usage;
+    return 0;
+  } catch (const examples::UsageError& error) {
+    std::cerr << name << ": " << error.what() << "\n\n" << usage;
+    return 2;
+  } catch (const std::exception& error) {
+    std::cerr << name << ": " << error.what() << '\n';
+    return 3;
+  }
 }
 
 } // namespace benches

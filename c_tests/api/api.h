@@ -25,6 +25,16 @@ int has_defect(lap_context *context, int32_t kind, int64_t a, int64_t b, int64_t
 /* The message of the context's last error is not empty. */
 int has_message(lap_context *context);
 
+/* Makes a handle from some input, and frees it. */
+typedef struct maker {
+    int32_t (*make)(lap_context *context, const void *input, void **made);
+    int32_t (*release)(void *made);
+    const void *input;
+} maker;
+
+/* Makes it once, then cancels at every call of progress that there was: nothing is left behind, and the fraction never falls. */
+void cancel_everywhere(lap_context *context, maker m);
+
 void test_status(void);
 void test_context(void);
 void test_mesh(void);

@@ -106,51 +106,25 @@ static void callbacks(lap_context *context)
     STATUS(LAP_OK, lap_context_free(c.other));
 }
 
-/* Cancels at the n-th call, and remembers how many there were. */
-typedef struct stopper {
-    int calls, at;
-    double fraction;
-} stopper;
-
-static int32_t stop_at(void *user, const char *stage, double fraction)
+static int32_t arrange(lap_context *context, const void *input, void **made)
 {
-    stopper *s = (stopper *)user;
-    CHECK(stage[0] != 0 && fraction >= s->fraction && fraction <= 1);
-    s->fraction = fraction;
-    return s->calls++ == s->at;
+    lap_arrangement *a = (lap_arrangement *)&a;
+    const int32_t status = lap_arrangement_new(context, 2, (const lap_operand *)input, NULL, &a);
+    *made = a;
+    return status;
 }
+
+static int32_t release(void *made) { return lap_arrangement_free((lap_arrangement *)made); }
 
 static void cancel(lap_context *context)
 {
     box b[2];
     lap_operand two[2];
-    stopper s = {0, -1, 0};
-    lap_arrangement *a = NULL;
-    int32_t status;
-    int all, i;
-
+    maker m = {arrange, release, NULL};
     two[0] = boxed(&b[0], 0, 0, 0, 0);
     two[1] = boxed(&b[1], 1, 1, 1, 0);
-    STATUS_IN(context, LAP_OK, lap_context_set_progress(context, stop_at, &s));
-    a = arranged(context, 2, two);
-    STATUS(LAP_OK, lap_arrangement_free(a));
-    all = s.calls;
-    CHECK(all > 5);
-    for (i = 0; i < all; ++i) {
-        s.calls = 0;
-        s.at = i;
-        s.fraction = 0;
-        a = (lap_arrangement *)&a;
-        status = lap_arrangement_new(context, 2, two, NULL, &a);
-        if (s.calls <= i) {
-            /* On a machine that stalls for long it is asked more often: not so this time. */
-            CHECK(status == LAP_OK && i > 5);
-            STATUS(LAP_OK, lap_arrangement_free(a));
-            continue;
-        }
-        CHECK(status == LAP_ERR_CANCELLED && a == NULL && s.calls == i + 1);
-    }
-    STATUS_IN(context, LAP_OK, lap_context_set_progress(context, NULL, NULL));
+    m.input = two;
+    cancel_everywhere(context, m);
 }
 
 void test_arrangement_callbacks(void)

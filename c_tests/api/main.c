@@ -48,6 +48,47 @@ int has_message(lap_context *context)
     return message != NULL && message[0] != 0;
 }
 
+/* Cancels at the n-th call, and remembers how many there were. */
+typedef struct stopper {
+    int calls, at;
+    double fraction;
+} stopper;
+
+static int32_t stop_at(void *user, const char *stage, double fraction)
+{
+    stopper *s = (stopper *)user;
+    CHECK(stage[0] != 0 && fraction >= s->fraction && fraction <= 1);
+    s->fraction = fraction;
+    return s->calls++ == s->at;
+}
+
+void cancel_everywhere(lap_context *context, maker m)
+{
+    stopper s = {0, -1, 0};
+    void *made = NULL;
+    int all, i;
+    STATUS_IN(context, LAP_OK, lap_context_set_progress(context, stop_at, &s));
+    STATUS_IN(context, LAP_OK, m.make(context, m.input, &made));
+    STATUS(LAP_OK, m.release(made));
+    all = s.calls;
+    CHECK(all > 5);
+    for (i = 0; i < all; ++i) {
+        int32_t status;
+        s.calls = 0;
+        s.at = i;
+        s.fraction = 0;
+        status = m.make(context, m.input, &made);
+        if (s.calls <= i) {
+            /* On a machine that stalls for long it is asked more often: not so this time. */
+            CHECK(status == LAP_OK && i > 5);
+            STATUS(LAP_OK, m.release(made));
+            continue;
+        }
+        CHECK(status == LAP_ERR_CANCELLED && made == NULL && s.calls == i + 1);
+    }
+    STATUS_IN(context, LAP_OK, lap_context_set_progress(context, NULL, NULL));
+}
+
 void test_status(void)
 {
     int32_t major = -1, minor = -1, patch = -1, i;

@@ -248,47 +248,30 @@ static void chain(lap_context *context)
     STATUS(LAP_OK, lap_surface_free(now));
 }
 
-/* Cancels at the n-th call, and remembers how many there were. */
-typedef struct stopper {
-    int calls, at;
-    double fraction;
-} stopper;
-
-static int32_t stop_at(void *user, const char *stage, double fraction)
+static int32_t certify(lap_context *context, const void *input, void **made)
 {
-    stopper *s = (stopper *)user;
-    CHECK(stage[0] != 0 && fraction >= s->fraction && fraction <= 1);
-    s->fraction = fraction;
-    return s->calls++ == s->at;
+    lap_surface *certified = (lap_surface *)&certified;
+    const int32_t status = lap_surface_certify(context, (const lap_surface *)input, NULL, &certified);
+    *made = certified;
+    return status;
 }
+
+static int32_t release(void *made) { return lap_surface_free((lap_surface *)made); }
 
 static void cancel(lap_context *context)
 {
     box b[2];
     lap_operand two[2];
-    stopper s = {0, -1, 0};
+    maker m = {certify, release, NULL};
     lap_arrangement *a = NULL;
-    lap_surface *surface = NULL, *certified = NULL;
-    int all, i;
+    lap_surface *surface = NULL;
 
     two[0] = turned(&b[0], 0, 0, 0);
     two[1] = turned(&b[1], 0.5, 0.25, 0);
     a = arranged(context, 2, two);
     surface = extracted(context, a, LAP_EXTRACT_DIFFERENCE);
-    STATUS_IN(context, LAP_OK, lap_context_set_progress(context, stop_at, &s));
-    STATUS_IN(context, LAP_OK, lap_surface_certify(context, surface, NULL, &certified));
-    STATUS(LAP_OK, lap_surface_free(certified));
-    all = s.calls;
-    CHECK(all > 5);
-    for (i = 0; i < all; ++i) {
-        s.calls = 0;
-        s.at = i;
-        s.fraction = 0;
-        certified = (lap_surface *)&certified;
-        STATUS(LAP_ERR_CANCELLED, lap_surface_certify(context, surface, NULL, &certified));
-        CHECK(certified == NULL && s.calls == i + 1);
-    }
-    STATUS_IN(context, LAP_OK, lap_context_set_progress(context, NULL, NULL));
+    m.input = surface;
+    cancel_everywhere(context, m);
     STATUS(LAP_OK, lap_surface_free(surface));
     STATUS(LAP_OK, lap_arrangement_free(a));
 }

@@ -21,8 +21,8 @@
 use super::flatten::flatten;
 use super::snap::{Snapped, snap};
 use super::{Arrangement, ArrangementOptions, Extraction, Operand, Selection, arrange, choose, extract};
-use crate::base::union_find::UnionFind;
-use crate::base::{FaceId, Result, Run, TriangleId, VertexId, Watch};
+use crate::base::vector::{cross, dot, length, minus};
+use crate::base::{FaceId, Result, Run, TriangleId, UnionFind, VertexId, Watch};
 use crate::exact::{self, Point};
 use crate::mesh::bvh::build_bvh_watched;
 use crate::mesh::self_intersection::self_intersections_watched;
@@ -170,6 +170,7 @@ fn repair(now: &mut CertifiedSurface, options: &CertifyOptions, run: &mut Run) -
     let (before, unit) = (now.triangles.len().max(16), now.report.unit);
     let most = options.growth.saturating_mul(before);
     let mut best: Option<(Found, CertifiedSurface)> = None;
+    run.tick("certify", 0.0)?;
     loop {
         tidy(now);
         // As nobody knows how many rounds there are, each takes half of what is left of the whole.
@@ -218,6 +219,7 @@ fn repair(now: &mut CertifiedSurface, options: &CertifyOptions, run: &mut Run) -
         run.tick("certify", 0.0)?;
         let mut inside = choose(&a, Selection::Resolve)?;
         let mut solid = extract(&a, &inside)?;
+        run.tick("certify", 0.0)?;
         let mut made = run.watched("certify", 0.0, |watch| rounded(&a, &solid, watch))?;
         if made.count > 0 {
             let turned = turn_thin_cells(&a, &made.corners, THIN * unit, &mut inside);
@@ -228,6 +230,7 @@ fn repair(now: &mut CertifiedSurface, options: &CertifyOptions, run: &mut Run) -
             }
         }
         *now = next(std::mem::take(now), &solid);
+        run.tick("certify", 0.0)?;
         if let Some(round) = now.report.rounds.last_mut() {
             round.rounded = made.count;
         }
@@ -407,7 +410,7 @@ fn turn_thin_cells(a: &Arrangement, corners: &[bool], thickness: f64, inside: &m
         }
         let x = corner.map(|v| a.coords(v));
         let normal = cross(minus(x[1], x[0]), minus(x[2], x[0]));
-        let size = 0.5 * dot(normal, normal).sqrt();
+        let size = 0.5 * length(normal);
         common[a.cells.patch[f.at()].at()] += size;
         for (c, sign) in [(behind, 1.0), (before, -1.0)] {
             volume[c.at()] += sign * dot(normal, minus(x[0], origin[c.at()])) / 6.0;
@@ -436,18 +439,6 @@ fn turn_thin_cells(a: &Arrangement, corners: &[bool], thickness: f64, inside: &m
         }
     }
     before.iter().zip(inside).filter(|(x, y)| x != y).count()
-}
-
-pub(super) fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|i| a[i] - b[i])
-}
-
-pub(super) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-pub(super) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 /// The solid, with the sources of the surface that it was made from.

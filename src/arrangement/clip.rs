@@ -10,17 +10,24 @@
 use super::Resolved;
 use super::data::Birth;
 use super::supports::{BOX, BOX_TRIANGLES};
-use crate::base::{FaceId, PlaneId};
+use crate::base::{FaceId, PlaneId, Result, Run};
 use crate::exact::{Sign, Support};
 
-/// Deals out the births of half-spaces.
-pub fn clip(r: &mut Resolved) {
+/// Faces and planes between two looks at whether the caller wants to stop, about.
+const LOOKS: usize = 1 << 18;
+
+/// Deals out the births of half-spaces. Errors: `Cancelled`.
+pub fn clip(r: &mut Resolved, run: &mut Run) -> Result<()> {
     if r.soup.planes().is_empty() {
-        return;
+        return Ok(());
     }
+    let often = LOOKS / r.soup.planes().len() + 1;
     let mut kept = Resolved { pair_count: r.pair_count, ..Resolved::default() };
     let (mut births, mut shared) = (Vec::new(), 0);
     for f in (0..r.faces.len()).map(FaceId::of) {
+        if f.at() % often == 0 {
+            run.tick("resolve", 0.65)?;
+        }
         while r.shared.get(shared).is_some_and(|s| *s < f) {
             shared += 1;
         }
@@ -51,6 +58,7 @@ pub fn clip(r: &mut Resolved) {
     kept.soup = std::mem::take(&mut r.soup);
     kept.points = std::mem::take(&mut r.points);
     *r = kept;
+    Ok(())
 }
 
 /// Whether a part of a side of the box is in a half-space.

@@ -20,12 +20,11 @@
 //!
 //! Cost: two or three arrangements of the part in its plane.
 
-use super::certify::minus;
 use super::slabs::{Slab, slabs};
-use super::snap::{Snapped, length, near_edges, split_by};
+use super::snap::{Snapped, near_edges, split_by};
 use super::{Operand, Resolved, clusters, crossings, intersect, resolve, soup};
-use crate::base::union_find::UnionFind;
-use crate::base::{FaceId, Result, Run, TriangleId, VertexId};
+use crate::base::vector::{length, minus};
+use crate::base::{FaceId, Result, Run, TriangleId, UnionFind, VertexId};
 use crate::mesh::bvh::build_bvh;
 use crate::mesh::projection::seen_along;
 use crate::mesh::validate;
@@ -75,7 +74,7 @@ pub fn flatten(
     let mut paths: Vec<([i32; 2], Vec<i32>)> = Vec::new();
     let mut gone = vec![false; triangles.len()];
     let mut out = Snapped::default();
-    for slab in slabs(coords, triangles, contacts, near) {
+    for slab in slabs(coords, triangles, contacts, near, run)? {
         let mut level = level_of(coords, triangles, &slab);
         if !level.resolve(grain, run)? {
             continue;
@@ -143,8 +142,10 @@ impl Level {
     fn resolve(&mut self, grain: f64, run: &mut Run) -> Result<bool> {
         let most = GROWTH * (self.pieces.len() + 64);
         for _ in 0..ROUNDS {
+            run.tick("flatten", 0.0)?;
             self.merge();
-            self.snap_near(grain);
+            self.snap_near(grain, run)?;
+            run.tick("flatten", 0.0)?;
             if !self.without_flat() || self.pieces.len() > most {
                 return Ok(false);
             }
@@ -175,7 +176,7 @@ impl Level {
     }
 
     /// Corners near one another become the lowest of them; edges are split at corners near them. So what is constructed has room to be rounded.
-    fn snap_near(&mut self, grain: f64) {
+    fn snap_near(&mut self, grain: f64, run: &mut Run) -> Result<()> {
         let corners: Vec<[VertexId; 3]> = self.pieces.iter().map(|(t, _)| t.map(|v| VertexId(v as u32))).collect();
         let tree = build_bvh(&self.places, &corners);
         let mut used: Vec<usize> = corners.iter().flatten().map(|v| v.at()).collect();
@@ -186,6 +187,7 @@ impl Level {
             let [lo, hi] = [-2.0, 2.0].map(|s| self.places[v].map(|x| x + s * grain));
             tree.meeting_box(&lo, &hi, |t| near.push((v, t)));
         }
+        run.tick("flatten", 0.0)?;
         let mut sets = UnionFind::new(self.places.len());
         for &(v, t) in &near {
             for w in corners[t.at()].map(|w| w.at()) {
@@ -206,6 +208,7 @@ impl Level {
                 near_edges(&self.places, &t, v, grain, &mut splits);
             }
         }
+        run.tick("flatten", 0.0)?;
         self.replace(&by);
         splits.sort_by_key(|s| (s.0, s.2));
         splits.dedup_by_key(|s| (s.0, s.2));
@@ -214,6 +217,7 @@ impl Level {
             let start = splits.partition_point(|s| s.0 < e);
             splits[start..].iter().take_while(|s| s.0 == e).map(|s| s.2).collect()
         });
+        Ok(())
     }
 
     /// Splits edges until no piece lies flat. Returns whether that came to an end.

@@ -25,6 +25,8 @@ const AT_ONCE: usize = 1 << 9;
 const PAIRS: u64 = 1 << 7;
 /// Looks of planes at triangles between two looks of that kind.
 const SHEETS: usize = 1 << 22;
+/// So many of them a pair of planes takes.
+const PAIR: usize = 1 << 11;
 
 /// What pairs told.
 #[derive(Default)]
@@ -118,7 +120,9 @@ fn meet_sheets(soup: &Soup, found: &mut Found, run: &mut Run) -> Result<()> {
         }
         part
     };
-    let at_once = (SHEETS / soup.mesh.triangles.len().max(1)).clamp(1, 64);
+    let threads = rayon::current_num_threads();
+    let looks = soup.mesh.triangles.len() + PAIR * stands.len();
+    let at_once = (SHEETS / looks.max(1)).clamp(threads, threads.max(64));
     for block in (0..stands.len()).collect::<Vec<_>>().chunks(at_once) {
         let parts: Vec<Found> = block.par_iter().with_max_len(1).map(|&p| each(p)).collect();
         parts.into_iter().for_each(|part| found.add(part));

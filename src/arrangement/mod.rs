@@ -118,7 +118,7 @@ pub fn arrange_with(
     let graphs = crossings::crossings(&soup, contacts, &clusters, run)?;
     let mut resolved = resolve::resolve(soup, graphs, &clusters, pair_count, run)?;
     drop(clusters);
-    clip::clip(&mut resolved);
+    clip::clip(&mut resolved, run)?;
     debug_assert_eq!(resolved.check(), Ok(()));
     run.stage("patches", 0.7)?;
     let patches = patches::patches(&resolved, run)?;

@@ -401,10 +401,11 @@ pub fn unbalanced_error(r: &Resolved, operands: &[Operand], edges: &[Unbalanced]
     let message = match (edges, &culprits[..]) {
         ([u, ..], [culprit, ..]) => {
             let name = |i: usize| {
+                // (With an exponent where it is short so.)
                 let [x, y, z] = r.coords(u.ends[i]);
                 match culprit.ids[i + 1] {
-                    -1 => format!("({x}, {y}, {z})"),
-                    v => format!("vertex {v} ({x}, {y}, {z})"),
+                    -1 => format!("({x:?}, {y:?}, {z:?})"),
+                    v => format!("vertex {v} ({x:?}, {y:?}, {z:?})"),
                 }
             };
             let source = r.soup.source.get(u.triangle.at()).map_or(String::new(), |t| format!(", triangle {t}"));

@@ -203,11 +203,12 @@ pub fn turn_of_rounded(a: [f64; 2], b: [f64; 2], c: [f64; 2], most: f64) -> Opti
 }
 
 /// The side of a plane of a point that rounds to x, if doubles tell. Each coordinate is off by half an ulp and each product and sum rounds once: within
-/// 6u of the sum of magnitudes; eight are used.
+/// 6u of the sum of magnitudes; eight are used. Half an ulp of a subnormal coordinate is more than u of it: that is in what is added for each of n.
 #[inline(always)]
 pub fn quick_side(p: &exact::Plane, x: &[f64; 3]) -> Option<Sign> {
     let terms = [p.n[0] * x[0], p.n[1] * x[1], p.n[2] * x[2], p.d];
     let sum = terms[0] + terms[1] + terms[2] + terms[3];
     let size = terms.iter().fold(0.0, |s, t| s + t.abs());
-    (sum.abs() > 8.0 * ROUNDOFF * size + TINY && size < f64::MAX).then(|| Sign::of(sum))
+    let least = TINY * (1.0 + p.n[0].abs() + p.n[1].abs() + p.n[2].abs());
+    (sum.abs() > 8.0 * ROUNDOFF * size + least && size < f64::MAX).then(|| Sign::of(sum))
 }

@@ -90,14 +90,14 @@ struct Local<'a> {
     vertices: Vec<VertexId>,
     /// Seen so that the first member turns to the left, and times a power of two.
     places: Vec<[f64; 2]>,
-    /// Corners of the frame as points.
-    frame: Vec<[f64; 3]>,
+    /// Corners of the frame as points, which may be out of range of doubles.
+    frame: Vec<Point>,
 }
 
 impl Local<'_> {
     fn point(&self, v: u32) -> Point {
         match (v as usize).checked_sub(self.vertices.len()) {
-            Some(k) => Point::Vertex(self.frame[k]),
+            Some(k) => self.frame[k],
             None => points::point(self.plane.soup, self.plane.points, self.vertices[v as usize]),
         }
     }
@@ -171,10 +171,13 @@ fn parts(
     } else {
         let frame = frame_around(&places);
         let as_point = |p: &[f64; 2]| {
-            let mut x = [0.0; 3];
             let p = if plane.orientation == Sign::Negative { [p[1], p[0]] } else { *p };
-            (x[u], x[v]) = (p[0] / scale, p[1] / scale);
-            x
+            // Where a coordinate times the scale is that.
+            let across = |axis: usize, at: f64| {
+                let n = std::array::from_fn(|i| if i == axis { scale } else { 0.0 });
+                exact::Plane { n, d: -at }
+            };
+            Point::Planes { p: across(u, p[0]), q: across(v, p[1]), r: across(plane.axis, 0.0) }
         };
         let points = frame.iter().map(as_point).collect();
         places.extend(frame);
@@ -202,9 +205,11 @@ fn parts(
     Ok(parts)
 }
 
-/// The power of two below a positive number, or the least one in range.
+/// The power of two below a positive number.
 fn power_near(x: f64) -> f64 {
-    f64::from_bits(x.min(f64::MAX).to_bits() & !((1 << 52) - 1)).max(f64::MIN_POSITIVE)
+    let bits = x.min(f64::MAX).to_bits();
+    let power = bits & !((1 << 52) - 1);
+    f64::from_bits(if power == 0 { 1 << bits.ilog2() } else { power })
 }
 
 /// Four corners strictly around all places, to the left.

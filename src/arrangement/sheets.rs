@@ -123,8 +123,11 @@ pub fn meet_planes(soup: &Soup, p: PlaneId, q: PlaneId, sink: &mut impl Sink) ->
     true
 }
 
-/// Whether two planes that do not coincide meet.
+/// Whether two planes that do not coincide do not meet.
 pub fn are_parallel(a: &Plane, b: &Plane) -> bool {
+    if a.n == b.n || a.n == b.n.map(|x| -x) {
+        return true;
+    }
     let unit = |axis: usize| Direction::Plane(std::array::from_fn(|i| (i == axis) as u8 as f64));
     let (a, b) = (Direction::Plane(a.n), Direction::Plane(b.n));
     (0..3).all(|axis| exact::determinant(&a, &b, &unit(axis)).is_zero())

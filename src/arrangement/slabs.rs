@@ -12,8 +12,8 @@
 //!
 //! Cost: linear in a part, for each of its planes, some four; seeds within a part that was found cost nothing.
 
-use super::certify::{cross, dot, minus};
-use crate::base::{Csr, TriangleId};
+use crate::base::vector::{cross, dot, length, minus};
+use crate::base::{Csr, Result, Run, TriangleId};
 
 /// Planes tried for a part, and seeds that may lead to nothing.
 const PLANES: usize = 12;
@@ -31,11 +31,10 @@ pub struct Flat {
 impl Flat {
     fn through(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> Option<Self> {
         let normal = cross(minus(b, a), minus(c, a));
-        let length = dot(normal, normal).sqrt();
-        let normal = normal.map(|x| x / length);
-        let size = |i: usize| normal[i].abs();
-        let axis = (1..3).fold(0, |best, i| if size(i) > size(best) { i } else { best });
-        (length > 0.0 && normal.iter().all(|x| x.is_finite())).then_some(Self { origin: a, normal, axis })
+        let size = length(normal);
+        let normal = normal.map(|x| x / size);
+        let axis = (1..3).fold(0, |best, i| if normal[i].abs() > normal[best].abs() { i } else { best });
+        (size > 0.0 && normal.iter().all(|x| x.is_finite())).then_some(Self { origin: a, normal, axis })
     }
 
     fn distance(&self, x: [f64; 3]) -> f64 {
@@ -60,7 +59,7 @@ pub struct Slab {
 
 impl Slab {
     /// Members' corners are its corners; what else has one of these is in `others`.
-    pub fn check(&self, triangles: &[[i32; 3]]) -> Result<(), String> {
+    pub fn check(&self, triangles: &[[i32; 3]]) -> std::result::Result<(), String> {
         let inside = |v: &i32| self.corners.binary_search(v).is_ok();
         for (t, corners) in triangles.iter().enumerate() {
             let t = t as u32;
@@ -86,8 +85,14 @@ struct Search<'a> {
     count: u32,
 }
 
-/// Finds such parts around contacts.
-pub fn slabs(coords: &[[f64; 3]], triangles: &[[i32; 3]], contacts: &[[TriangleId; 2]], near: f64) -> Vec<Slab> {
+/// Finds such parts around contacts. Errors: `Cancelled`.
+pub fn slabs(
+    coords: &[[f64; 3]],
+    triangles: &[[i32; 3]],
+    contacts: &[[TriangleId; 2]],
+    near: f64,
+    run: &mut Run,
+) -> Result<Vec<Slab>> {
     let corners = || triangles.iter().enumerate().flat_map(|(t, c)| c.iter().map(move |v| (*v as usize, t as u32)));
     let both = || contacts.iter().flat_map(|[p, q]| [(p.at(), q.0), (q.at(), p.0)]);
     let mut search = Search {
@@ -116,6 +121,7 @@ pub fn slabs(coords: &[[f64; 3]], triangles: &[[i32; 3]], contacts: &[[TriangleI
         if !seed.iter().all(free) {
             continue;
         }
+        run.tick("flatten", 0.0)?;
         match search.widest(seed[0]) {
             Some(mut slab)
                 if slab.members.binary_search(&seed[1].0).is_ok()
@@ -134,7 +140,7 @@ pub fn slabs(coords: &[[f64; 3]], triangles: &[[i32; 3]], contacts: &[[TriangleI
             break;
         }
     }
-    found
+    Ok(found)
 }
 
 impl Search<'_> {

@@ -9,9 +9,8 @@
 //!
 //! Cost: a microsecond for each pair of triangles in contact; linear in triangles.
 
-use super::certify::{cross, dot, minus};
-use crate::base::TriangleId;
-use crate::base::union_find::UnionFind;
+use crate::base::vector::{cross, dot, length, minus};
+use crate::base::{TriangleId, UnionFind};
 use std::collections::BTreeMap;
 
 /// Triangles after snapping, and the one that each is a part of.
@@ -156,10 +155,6 @@ fn split_list(splits: &[Split], from: i32, to: i32) -> Vec<i32> {
 fn edge(t: &[i32; 3], i: usize) -> [i32; 2] {
     let (a, b) = (t[i], t[(i + 1) % 3]);
     [a.min(b), a.max(b)]
-}
-
-pub(super) fn length(x: [f64; 3]) -> f64 {
-    dot(x, x).sqrt()
 }
 
 /// Splits the edges of a triangle that are near a corner and do not end there. Returns whether there are any.

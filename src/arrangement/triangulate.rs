@@ -7,7 +7,9 @@
 //! Invariant: all triangles turn strictly positive; their union is the start (one triangle, or a frame around everything); sides fit.
 //! Degenerate cases: vertices on sides of the start and on one another's lines are insertions into an edge; nothing is collinear afterwards.
 //! Pieces have no vertices inside and do not cross, so flips bring every piece in.
-//! Cost: vertices are inserted along a space-filling curve, so n log n for the sort and nearly linear for the rest.
+//! Cost: vertices are inserted along a space-filling curve, so n log n for the sort and nearly linear for the rest. A piece that is not there costs
+//! up to the square of the sides that cross it: so the missing ones of a family, chords of parallel planes say, do not come one beside the other, where each
+//! has to cross as much as the first, but far apart, and halve what is left to be crossed.
 
 use crate::base::{Error, Watch};
 use crate::exact::Sign;
@@ -15,6 +17,8 @@ use std::collections::VecDeque;
 
 /// Vertices, and pieces, between two looks at the caller's wish to stop.
 const OFTEN: usize = 32;
+/// Sides that cross a piece, between two such looks.
+const FLIPS: usize = 1 << 12;
 
 /// No neighbour.
 pub const NONE: u32 = u32::MAX;
@@ -73,11 +77,21 @@ pub fn triangulate(
         look(i)?;
         last = t.insert(vertices, v, last)?;
     }
-    for (i, &[a, b]) in pieces.iter().enumerate() {
+    let missing: Vec<[u32; 2]> = pieces.iter().filter(|p| !t.mark(p[0], p[1])).copied().collect();
+    for (i, place) in halving(missing.len()).enumerate() {
         look(i)?;
-        t.force(vertices, a, b)?;
+        let [a, b] = missing[place];
+        t.force(vertices, a, b, watch)?;
     }
     Ok(t)
+}
+
+/// All numbers below a count, each far from those before it.
+fn halving(count: usize) -> impl Iterator<Item = usize> {
+    let bits = count.next_power_of_two().ilog2();
+    (0..1usize << bits)
+        .map(move |i| i.reverse_bits().checked_shr(usize::BITS - bits).unwrap_or(0))
+        .filter(move |i| *i < count)
 }
 
 /// Numbers of vertices along a space-filling curve.
@@ -318,8 +332,9 @@ impl Triangulation {
     }
 
     /// Brings a piece in: sides that cross it are flipped until none does (in some order that always works).
-    fn force(&mut self, vertices: &impl Vertices, a: u32, b: u32) -> Result<(), Error> {
+    fn force(&mut self, vertices: &impl Vertices, a: u32, b: u32, watch: &Watch) -> Result<(), Error> {
         if self.mark(a, b) {
+            // Flips for another one have brought it in.
             return Ok(());
         }
         let exit = self.around(a, |t, i| {
@@ -357,6 +372,9 @@ impl Triangulation {
                 return Err(contradiction());
             }
             patience -= 1;
+            if patience % FLIPS == 0 {
+                watch.check()?;
+            }
             let Some([_, _, c, d]) = self.convex(vertices, t, k) else {
                 crossing.push_back([x, y]);
                 continue;

@@ -12,6 +12,7 @@ pub mod parallel;
 pub mod processor;
 pub mod run;
 pub mod union_find;
+pub mod vector;
 
 pub use csr::Csr;
 pub use error::{Culprit, DefectKind, Error, Result, Status};

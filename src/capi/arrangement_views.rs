@@ -2,8 +2,8 @@
 
 use super::arrangement::{lap_arrangement, null_arrangement};
 use super::complex::{lap_complex, number_origin};
-use super::context::{c_string, lap_context, with_context};
-use super::derived::{keep, lend_complex, on_demand, once, too_many_elements};
+use super::context::{lap_context, with_context};
+use super::derived::{keep, lend_complex, on_demand, once, put_strings, too_many_elements};
 use super::guard::guard;
 use super::view::{address, handle, index, put};
 use crate::arrangement::solids::{every_cell, solids};
@@ -142,14 +142,8 @@ pub unsafe extern "C" fn lap_arrangement_vertex_exact(
         let a = &unsafe { handle(arrangement) }.map_err(null_arrangement)?.data;
         let none = |status| Error::new(status, format!("there is no vertex {vertex}"));
         let v = VertexId::of(index(vertex, a.vertex_count()).map_err(none)?);
-        for (to, coordinate) in state.strings.iter_mut().zip(&rational(&a.point(v))) {
-            *to = c_string(&coordinate.to_string());
-        }
-        unsafe {
-            put(x, state.strings[0].as_ptr());
-            put(y, state.strings[1].as_ptr());
-            put(z, state.strings[2].as_ptr());
-        }
+        let texts = rational(&a.point(v)).map(|coordinate| coordinate.to_string());
+        unsafe { put_strings(state, texts, [x, y, z]) };
         Ok(())
     })
 }
@@ -342,7 +336,7 @@ pub unsafe extern "C" fn lap_arrangement_cell_volume_exact(
 /// The bounded cells as a complex on which all functions for lap_complex work but lap_complex_face_keys (LAP_ERR_BAD_ARGUMENT). Its mesh is that of all operands:
 /// vertices and triangles count through them.
 ///
-/// Cell c is cell c + 1 of the arrangement, and so has the winding numbers that lap_arrangement_windings gives for that. Faces are those of the
+/// Cell c is cell c + 1 of the arrangement, and so has the winding numbers that lap_arrangement_cells gives for that. Faces are those of the
 /// arrangement that divide, those parts of one triangle with the same births joined that only the triangulation separates: with holes, by the
 /// lowest part. A face lies on the first triangle that it is a part of (LAP_SUPPORT_TRIANGLE); there may be a cell on either of its sides, or on both.
 /// Vertices are those of the arrangement that such faces have, rising. lap_arrangement_complex_places tells which.

@@ -4,7 +4,7 @@ use super::complex::lap_complex;
 use super::context::{lap_context, with_context};
 use super::guard::guard;
 use super::mesh::bad_options;
-use super::view::{address, handle, index, input, into_handle, put, read_options, write_options};
+use super::view::{address, handle, index, input, into_handle, put, put_list, read_options, write_options};
 use crate::base::{Error, PlaneId, Status};
 use crate::complex::{CertifiedComplex, CertifyOptions, Complex, certify};
 
@@ -20,8 +20,6 @@ use crate::complex::{CertifiedComplex, CertifyOptions, Complex, certify};
 /// the complex's numbers to these. Where nothing had to be repaired both are the same. The complex stays as it is.
 pub struct lap_certified {
     data: CertifiedComplex,
-    open_faces: Vec<[i32; 2]>,
-    open_cells: Vec<i32>,
 }
 
 /// Options of lap_certified_new; filled by lap_certify_options_init.
@@ -132,9 +130,7 @@ pub unsafe extern "C" fn lap_certified_new(
         if data.triangles.items.len() > i32::MAX as usize {
             return Err(Error::new(Status::TooLarge, "more triangles than 32-bit indices can number"));
         }
-        let open_faces = data.report.open_faces.iter().map(|p| p.map(|f| f.0 as i32)).collect();
-        let open_cells = data.report.open_cells.iter().map(|k| k.0 as i32).collect();
-        unsafe { put(certified, into_handle(lap_certified { data, open_faces, open_cells })) };
+        unsafe { put(certified, into_handle(lap_certified { data })) };
         Ok(())
     })
 }
@@ -329,12 +325,10 @@ pub unsafe extern "C" fn lap_certified_open(
     cells: *mut *const i32,
 ) -> i32 {
     guard(|_| {
-        let certified = unsafe { handle(certified) }?;
+        let report = &unsafe { handle(certified) }?.data.report;
         unsafe {
-            put(n_pairs, certified.open_faces.len() as i64);
-            put(pairs, address(&certified.open_faces));
-            put(n_cells, certified.open_cells.len() as i64);
-            put(cells, address(&certified.open_cells));
+            put_list(n_pairs, pairs, &report.open_faces);
+            put_list(n_cells, cells, &report.open_cells);
         }
         Ok(())
     })

@@ -19,7 +19,7 @@ use std::any::Any;
 use std::cell::UnsafeCell;
 use std::ffi::{CString, c_char, c_void};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{OnceLock, mpsc};
+use std::sync::{Arc, OnceLock, mpsc};
 use std::thread::JoinHandle;
 
 /// Largest number of threads of a context.
@@ -62,7 +62,7 @@ pub struct State {
     /// Exact strings of the last call.
     pub strings: [CString; 4],
     /// What the last call handed out views of.
-    held: Option<Box<dyn Any + Send>>,
+    held: Option<Arc<dyn Any + Send + Sync>>,
     /// Memory of one call is kept for the next.
     _keeper: Keeper,
 }
@@ -102,10 +102,10 @@ impl State {
     }
 
     /// Keeps what a call hands out views of, until the next call that does.
-    pub fn hold<T: Send + 'static>(&mut self, value: T) -> &T {
-        self.held = None;
-        let held = self.held.insert(Box::new(value));
-        held.downcast_ref().expect("what was just put there")
+    pub fn hold<T: Send + Sync + 'static>(&mut self, value: T) -> Arc<T> {
+        let value = Arc::new(value);
+        self.held = Some(value.clone());
+        value
     }
 
     /// How many threads a handle made now may use for what it computes on demand.

@@ -281,14 +281,7 @@ pub unsafe extern "C" fn lap_complex_vertex_exact(
     with_context(context, |state, _| {
         let c = &unsafe { handle(complex) }.map_err(null_complex)?.data;
         let vertex = index(vertex, c.vertex_count()).map_err(|s| no_such("vertex", vertex, c.vertex_count(), s))?;
-        for (to, text) in state.strings.iter_mut().zip(exact_values::vertex_strings(c, VertexId::of(vertex))) {
-            *to = c_string(&text);
-        }
-        unsafe {
-            put(x, state.strings[0].as_ptr());
-            put(y, state.strings[1].as_ptr());
-            put(z, state.strings[2].as_ptr());
-        }
+        unsafe { put_strings(state, exact_values::vertex_strings(c, VertexId::of(vertex)), [x, y, z]) };
         Ok(())
     })
 }
@@ -327,6 +320,17 @@ pub fn check(c: &Complex) -> Result<(), Error> {
 pub fn keep(state: &mut State, text: &str) -> *const c_char {
     state.strings[0] = c_string(text);
     state.strings[0].as_ptr()
+}
+
+/// Keeps three strings in the context and writes their addresses.
+///
+/// # Safety
+/// Each of `to` is null or writable.
+pub unsafe fn put_strings(state: &mut State, texts: [String; 3], to: [*mut *const c_char; 3]) {
+    for ((kept, text), to) in state.strings.iter_mut().zip(texts).zip(to) {
+        *kept = c_string(&text);
+        unsafe { put(to, kept.as_ptr()) };
+    }
 }
 
 fn null_complex(status: Status) -> Error {

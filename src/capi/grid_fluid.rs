@@ -229,7 +229,7 @@ pub unsafe extern "C" fn lap_grid_region_mask(
         let id = index(region, of.count)
             .map_err(|s| Error::new(s, format!("region {region} is not there: {} in all, counted from 0", of.count)))?;
         let masks = state.run(host, |_| Ok(of.mask(&grid.data, RegionId::of(id))))?;
-        let (of_cells, of_boxes) = state.hold(masks);
+        let (of_cells, of_boxes) = &*state.hold(masks);
         unsafe {
             put(n_cells, of_cells.len() as i64);
             put(cells, address(of_cells));

@@ -428,7 +428,7 @@ pub unsafe extern "C" fn lap_mesh_locate(
             };
             Ok(points.par_iter().map(place).collect())
         })?;
-        unsafe { put(places, address(state.hold(found))) };
+        unsafe { put(places, address(&state.hold(found))) };
         Ok(())
     })
 }

@@ -1,8 +1,8 @@
 //! The noun `lap_network`, second part: vertices, polygons and what they form, as borrowed views.
 
 use super::complex::lap_complex;
-use super::context::{c_string, lap_context, with_context};
-use super::derived::{lend_complex, on_demand, once, too_many_elements};
+use super::context::{lap_context, with_context};
+use super::derived::{lend_complex, on_demand, once, put_strings, too_many_elements};
 use super::guard::guard;
 use super::network::{lap_network, null_network};
 use super::view::{address, handle, index, put};
@@ -637,14 +637,7 @@ pub unsafe extern "C" fn lap_network_vertex_exact(
         let none = |status| Error::new(status, format!("there is no vertex {vertex}"));
         let v = VertexId::of(index(vertex, network.data.vertex_count()).map_err(none)?);
         let exact = network.with_setting(|s| Ok(exact_vertex(s.network, s.domain, &s.values, v)))?;
-        for (to, coordinate) in state.strings.iter_mut().zip(&exact) {
-            *to = c_string(&coordinate.to_string());
-        }
-        unsafe {
-            put(x, state.strings[0].as_ptr());
-            put(y, state.strings[1].as_ptr());
-            put(z, state.strings[2].as_ptr());
-        }
+        unsafe { put_strings(state, exact.map(|coordinate| coordinate.to_string()), [x, y, z]) };
         Ok(())
     })
 }

@@ -51,7 +51,6 @@ pub(super) struct Certified {
     pub triangles: Vec<u32>,
     pub flipped: Vec<bool>,
     pub report: CertifyReport,
-    pub remaining: Vec<[i32; 2]>,
 }
 
 /// What a surface of triangles has of each, whichever it is.

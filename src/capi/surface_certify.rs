@@ -4,7 +4,7 @@ use super::context::{lap_context, with_context};
 use super::guard::guard;
 use super::mesh::bad_options;
 use super::surface::{Certified, lap_surface};
-use super::view::{address, handle, into_handle, put, read_options, write_options};
+use super::view::{handle, into_handle, put, put_list, read_options, write_options};
 use crate::arrangement::certify::{CertifiedSurface, CertifyOptions, certify};
 use crate::base::{Error, Status, VertexId};
 
@@ -150,7 +150,6 @@ fn with_births(surface: &lap_surface, made: CertifiedSurface) -> Result<Certifie
         flipped: each().map(|(t, against)| of.flipped[t] != against).collect(),
         xyz: made.coords,
         corners: made.triangles.iter().map(|t| t.map(|v| v as u32)).collect(),
-        remaining: made.report.remaining.iter().map(|p| p.map(|t| t.0 as i32)).collect(),
         report: made.report,
     })
 }
@@ -184,7 +183,7 @@ pub unsafe extern "C" fn lap_surface_certified_report(
             gone_vertices: r.gone as i64,
             snapped: r.snapped as i64,
             thin_cells: r.thin_cells as i64,
-            open_pairs: certified.remaining.len() as i64,
+            open_pairs: r.remaining.len() as i64,
             largest_move: r.largest_move,
             move_unit: r.unit,
         };
@@ -206,11 +205,8 @@ pub unsafe extern "C" fn lap_surface_certified_open(
     pairs: *mut *const i32,
 ) -> i32 {
     guard(|_| {
-        let certified = unsafe { handle(certified) }?.certified()?;
-        unsafe {
-            put(n_pairs, certified.remaining.len() as i64);
-            put(pairs, address(certified.remaining.as_flattened()));
-        }
+        let report = &unsafe { handle(certified) }?.certified()?.report;
+        unsafe { put_list(n_pairs, pairs, &report.remaining) };
         Ok(())
     })
 }

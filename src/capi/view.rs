@@ -2,7 +2,7 @@
 
 use crate::base::{
     BoxId, CellId, ComponentId, EdgeId, FaceId, FunctionId, NodeId, OperandId, PatchId, PlaneId, PolygonId, RegionId,
-    SetId, ShellId, Status, TetId, VertexId,
+    SetId, ShellId, Status, TetId, TriangleId, VertexId,
 };
 use crate::complex::{HalfCorner, HalfFace, Key};
 use crate::network::patches::HalfPatch;
@@ -39,6 +39,7 @@ unsafe impl ReadAs<i32> for BoxId {}
 unsafe impl ReadAs<i32> for NodeId {}
 unsafe impl ReadAs<i32> for RegionId {}
 unsafe impl ReadAs<i32> for TetId {}
+unsafe impl ReadAs<i32> for TriangleId {}
 unsafe impl ReadAs<i32> for OperandId {}
 unsafe impl ReadAs<i32> for FunctionId {}
 unsafe impl ReadAs<i32> for SetId {}
@@ -69,6 +70,17 @@ unsafe impl<To, T: ReadAs<To>, const N: usize> ReadAs<To> for [T; N] {}
 /// The address that C reads an array at; NULL for an empty array.
 pub fn address<T: ReadAs<To>, To>(items: &[T]) -> *const To {
     if items.is_empty() { std::ptr::null() } else { items.as_ptr().cast() }
+}
+
+/// Writes how long an array is, and its address.
+///
+/// # Safety
+/// As for [`put`].
+pub unsafe fn put_list<T: ReadAs<To>, To>(count: *mut i64, start: *mut *const To, items: &[T]) {
+    unsafe {
+        put(count, items.len() as i64);
+        put(start, address(items));
+    }
 }
 
 /// Borrows an input array of `count` groups.

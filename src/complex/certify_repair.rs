@@ -21,6 +21,7 @@
 use super::certify_check::{apart, degenerate};
 use super::certify_work::{Work, sort_corners};
 use super::data::Complex;
+use crate::base::vector::{cross, length, minus};
 use crate::base::{Csr, TriangleId, UnionFind, VertexId};
 use crate::mesh::bvh::Bvh;
 use crate::mesh::self_intersection::contact;
@@ -413,18 +414,6 @@ impl<'a> Mender<'a> {
             self.work.merge(&group, &star, &mut self.changed);
         }
     }
-}
-
-fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-fn length(u: [f64; 3]) -> f64 {
-    u[0].hypot(u[1]).hypot(u[2])
-}
-
-fn cross(u: [f64; 3], v: [f64; 3]) -> [f64; 3] {
-    [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
 }
 
 /// Axes, then diagonals of faces, then of the cube.
