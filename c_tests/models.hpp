@@ -155,6 +155,8 @@ public:
     }
     bool empty() const { return files_.empty(); }
     bool whole() const { return parts_ == 1; }
+    /* The part that does what is done once. */
+    bool first() const { return part_ == 0; }
 
     /* Calls `use` for each closed mesh of this part with its name, and with that of the next closed one of all. */
     template <class Use>

@@ -2,9 +2,9 @@
  * itself shifted by exactly one of its edges, which makes much of both coincide.
  *
  * For each pair, in exact rationals: vol(A | B) + vol(A & B) = vol(A) + vol(B), vol(A) - vol(A & B) = vol(A - B), vol(A) that of the mesh. Every output is
- * closed, and at the library's exact coordinates no two of its triangles meet but in what they share: by PMP::does_self_intersect where it is a
- * manifold, else pair by pair. Corefinement over exact constructions gives the same volumes where it can (its input and output have to
- * be manifolds), and so do Nef polyhedra for small ones.
+ * closed and bounds its volume, and at the library's exact coordinates no two triangles of any outputs meet but in what they share: pair by pair, by
+ * CGAL's predicates; where few triangles meet, outputs that are manifolds go to PMP::does_self_intersect as well. Corefinement over exact constructions
+ * gives the same volumes where it can (its input and output have to be manifolds), and so do Nef polyhedra for small ones.
  *
  * A few meshes; with LAPIDARY_LONG every closed mesh that does not intersect itself. LAPIDARY_PART=i/n, i from 0, takes every n-th
  * mesh only.
