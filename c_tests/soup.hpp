@@ -2,6 +2,7 @@
 #ifndef LAPIDARY_TEST_SOUP_HPP
 #define LAPIDARY_TEST_SOUP_HPP
 
+#include <CGAL/Simple_cartesian.h>
 #include <CGAL/intersections.h>
 
 #include <algorithm>

@@ -1559,12 +1559,18 @@ module lapidary
     ! share has the same key in both. A key names one edge of the face's boundary with its direction, and so the face on
     ! its left.
     !
+    ! In complexes of arrangements (lap_arrangement_complex, lap_surface_complex) triangles are named by their places
+    ! among those of all operands, one behind the other (a half-space counts thirteen), and half-spaces by theirs among
+    ! half-spaces. Faces with the same boundary have the same key in all complexes of one arrangement and of
+    ! arrangements of the same operands in the same order. Operands that are added behind the others change the keys of
+    ! those faces only that they cut or touch.
+    !
     ! Outputs (each may be NULL; borrowed as the complex): count; keys: 2 × count, the first number of a pair never
     ! negative.
     !
-    ! Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_BAD_ARGUMENT for that of a network or an arrangement,
-    ! LAP_ERR_INCONSISTENT for input that intersects itself, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: linear at the
-    ! first call, then none.
+    ! Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_BAD_ARGUMENT for that of a network, LAP_ERR_INCONSISTENT
+    ! for input to a cut that intersects itself, LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: linear at the first call,
+    ! then none.
     integer(c_int32_t) function lap_complex_face_keys(complex, count, keys) bind(c, name="lap_complex_face_keys")
       import :: c_int32_t, c_int64_t, c_ptr
       type(c_ptr), value :: complex
@@ -3876,8 +3882,8 @@ module lapidary
 
   public :: lap_arrangement_complex
   interface
-    ! The bounded cells as a complex on which all functions for lap_complex work but lap_complex_face_keys
-    ! (LAP_ERR_BAD_ARGUMENT). Its mesh is that of all operands: vertices and triangles count through them.
+    ! The bounded cells as a complex on which all functions for lap_complex work. Its mesh is that of all operands:
+    ! vertices and triangles count through them.
     !
     ! Cell c is cell c + 1 of the arrangement, and so has the winding numbers that lap_arrangement_cells gives for that.
     ! Faces are those of the arrangement that divide, those parts of one triangle with the same births joined that only

@@ -1359,9 +1359,14 @@ int32_t lap_complex_vertex_keys(const struct lap_complex *complex,
  The keys of the faces, as lap_complex_vertex_keys: no two faces have the same key, and a face that two complexes share has
  the same key in both. A key names one edge of the face's boundary with its direction, and so the face on its left.
 
+ In complexes of arrangements (lap_arrangement_complex, lap_surface_complex) triangles are named by their places among those of all operands, one
+ behind the other (a half-space counts thirteen), and half-spaces by theirs among half-spaces. Faces with the same boundary have the same key in all
+ complexes of one arrangement and of arrangements of the same operands in the same order. Operands that are added behind the others change the keys
+ of those faces only that they cut or touch.
+
  Outputs (each may be NULL; borrowed as the complex): count; keys: 2 × count, the first number of a pair never negative.
 
- Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_BAD_ARGUMENT for that of a network or an arrangement, LAP_ERR_INCONSISTENT for input that intersects itself,
+ Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_BAD_ARGUMENT for that of a network, LAP_ERR_INCONSISTENT for input to a cut that intersects itself,
  LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: linear at the first call, then none.
  */
 int32_t lap_complex_face_keys(const struct lap_complex *complex,
@@ -3064,7 +3069,7 @@ int32_t lap_arrangement_cell_volume_exact(struct lap_context *context,
                                           const char **volume);
 
 /*
- The bounded cells as a complex on which all functions for lap_complex work but lap_complex_face_keys (LAP_ERR_BAD_ARGUMENT). Its mesh is that of all operands:
+ The bounded cells as a complex on which all functions for lap_complex work. Its mesh is that of all operands:
  vertices and triangles count through them.
 
  Cell c is cell c + 1 of the arrangement, and so has the winding numbers that lap_arrangement_cells gives for that. Faces are those of the

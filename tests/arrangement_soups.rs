@@ -1,11 +1,13 @@
 //! Random closed soups of small whole coordinates: every extraction is a solid by an independent judge, volumes add up, neither the order of
-//! operands nor threads matter. `LAPIDARY_FUZZ=n`: n rounds; `LAPIDARY_FUZZ_SEED=n`: other soups.
+//! operands nor threads matter. `LAPIDARY_FUZZ=n`: n rounds; `LAPIDARY_FUZZ_MINUTES=n`: as many as there are in that time;
+//! `LAPIDARY_FUZZ_SEED=n`: other soups.
 
 use lapidary::arrangement::volumes::{cell_volumes, volume};
 use lapidary::arrangement::{Arrangement, Selection};
 use lapidary::base::CellId;
 use rug::Rational;
 use std::collections::BTreeSet;
+use std::time::{Duration, Instant};
 
 #[path = "common/mod.rs"]
 mod common;
@@ -62,9 +64,12 @@ fn summary(a: &Arrangement, names: &[usize]) -> (Vec<(Vec<i32>, Rational)>, BTre
 #[test]
 fn soups_of_small_whole_numbers() {
     let mut r = Random(from_environment("LAPIDARY_FUZZ_SEED", 0) << 32 | 17);
-    let rounds = from_environment("LAPIDARY_FUZZ", 150);
-    let (mut solids, mut triangles) = (0, 0);
-    for round in 0..rounds {
+    let (started, minutes) = (Instant::now(), from_environment("LAPIDARY_FUZZ_MINUTES", 0));
+    let least = if minutes > 0 { 0 } else { from_environment("LAPIDARY_FUZZ", 150) };
+    let (mut rounds, mut solids, mut triangles) = (0, 0, 0);
+    while rounds < least || started.elapsed() < Duration::from_secs(60 * minutes) {
+        let round = rounds;
+        rounds += 1;
         let range = [1, 1, 2, 3, 5][r.below(5) as usize];
         let mut soups: Vec<Soup> = (0..1 + r.below(4)).map(|_| soup(&mut r, range)).collect();
         if r.below(3) == 0 {
@@ -99,6 +104,6 @@ fn soups_of_small_whole_numbers() {
         assert!(summary(&a, &names) == summary(&b, &order), "{what}: the order of operands matters");
         assert_eq!(a.resolved.pair_count, b.resolved.pair_count, "{what}");
     }
-    println!("{solids} solids of {triangles} triangles");
+    println!("{rounds} rounds: {solids} solids of {triangles} triangles");
     assert!(solids as u64 > rounds && triangles > 10 * solids);
 }

@@ -6,12 +6,12 @@
 mod random;
 
 use lapidary::capi::{
-    arrangement::*, arrangement_extract::*, arrangement_views::*, complex::*, context::*, derived::*, mesh::*,
+    arrangement::*, arrangement_extract::*, arrangement_views::*, complex::*, context::*, derived::*, keys::*, mesh::*,
     status::*, surface::*, surface_certify::*,
 };
 use random::Random;
 use rug::Rational;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::{CStr, CString};
 use std::ptr::{null, null_mut};
 
@@ -553,6 +553,16 @@ fn soups_and_half_spaces_add_up() {
             assert_eq!(status, LAP_OK, "round {round}");
             assert_eq!(lap_surface_complex(context, surface, &mut again), LAP_OK, "round {round}");
             assert_eq!(lap_complex_check(context, again), LAP_OK, "round {round}");
+            for c in [complex, again] {
+                let mut keys = null();
+                assert_eq!(lap_complex_face_keys(c, &mut count, &mut keys), LAP_OK, "round {round}: keys");
+                let all: BTreeSet<[i64; 2]> =
+                    (0..count as usize).map(|f| [*keys.add(2 * f), *keys.add(2 * f + 1)]).collect();
+                assert!(
+                    all.len() == count as usize && all.iter().all(|k| k[0] >= 0),
+                    "round {round}: two faces with one key"
+                );
+            }
             assert_eq!(lap_surface_free(surface), LAP_OK);
             assert_eq!(lap_arrangement_free(arrangement), LAP_OK);
         }

@@ -473,7 +473,12 @@ static void complexes(lap_context *context)
     for (i = 0; i < count; ++i) CHECK(kinds[i] == LAP_VERTEX_MESH || kinds[i] == LAP_VERTEX_TRIANGLES);
     STATUS(LAP_OK, lap_complex_vertex_keys(complex, &count, &keys));
     CHECK(count == n_vertices && keys != NULL);
-    STATUS(LAP_ERR_BAD_ARGUMENT, lap_complex_face_keys(complex, &count, &keys));
+    STATUS(LAP_OK, lap_complex_face_keys(complex, &count, &keys));
+    CHECK(count == n_faces && keys != NULL);
+    for (i = 0; i < n_faces; ++i) {
+        CHECK(keys[2 * i] >= 0);
+        for (k = 0; k < i; ++k) CHECK(keys[2 * i] != keys[2 * k] || keys[2 * i + 1] != keys[2 * k + 1]);
+    }
     STATUS(LAP_ERR_BAD_ARGUMENT, lap_complex_cell_side(complex, 0, 0, &side));
     STATUS(LAP_ERR_NULL_POINTER, lap_arrangement_complex(context, a, NULL));
     STATUS(LAP_ERR_NULL_POINTER, lap_arrangement_complex(context, NULL, &complex));

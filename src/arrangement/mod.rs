@@ -3,7 +3,7 @@
 //!
 //! Stages in pipeline order: [`soup`] → [`intersect`] (with [`stars`], [`pair`], [`sheets`], [`points`]) → [`clusters`] → [`crossings`] → [`triangulate`] →
 //! [`resolve`] (→ [`clip`], of half-spaces: [`supports`]) → [`patches`] → [`cells`] (with [`nesting`]) → [`winding`] → [`extract`] (→ [`certify`], with
-//! [`flatten`], [`slabs`] and [`snap`]) or [`solids`].
+//! [`flatten`], [`slabs`] and [`snap`]) or [`solids`] (→ [`keys`]).
 
 pub mod cells;
 pub mod certify;
@@ -14,6 +14,7 @@ pub mod data;
 pub mod extract;
 pub mod flatten;
 pub mod intersect;
+pub mod keys;
 pub mod nesting;
 pub mod pair;
 pub mod patches;

@@ -25,14 +25,7 @@ pub struct Views {
     multiplicities: OnceLock<(Vec<OperandId>, Vec<i32>)>,
     windings: OnceLock<(Vec<OperandId>, Vec<i32>)>,
     volumes: OnceLock<(Vec<Rational>, Vec<f64>)>,
-    complex: OnceLock<Solid>,
-}
-
-/// The bounded cells as a complex, and where its vertices and faces come from.
-struct Solid {
-    complex: lap_complex,
-    vertices: Vec<VertexId>,
-    faces: Csr<FaceId>,
+    complex: OnceLock<lap_complex>,
 }
 
 /// Of all faces. Empty offsets: too many for C's indices.
@@ -333,7 +326,7 @@ pub unsafe extern "C" fn lap_arrangement_cell_volume_exact(
     })
 }
 
-/// The bounded cells as a complex on which all functions for lap_complex work but lap_complex_face_keys (LAP_ERR_BAD_ARGUMENT). Its mesh is that of all operands:
+/// The bounded cells as a complex on which all functions for lap_complex work. Its mesh is that of all operands:
 /// vertices and triangles count through them.
 ///
 /// Cell c is cell c + 1 of the arrangement, and so has the winding numbers that lap_arrangement_cells gives for that. Faces are those of the
@@ -354,14 +347,11 @@ pub unsafe extern "C" fn lap_arrangement_complex(
     with_context(context, |state, host| {
         let find = || {
             let arrangement = unsafe { handle(arrangement) }.map_err(null_arrangement)?;
-            let made = once(&arrangement.views.complex, || {
+            once(&arrangement.views.complex, || {
                 let a = &arrangement.data;
                 let made = state.run(host, |run| solids(a, &every_cell(a), run))?;
-                let complex = lap_complex::of_arrangement(made.complex, a.resolved.soup.given(), arrangement.threads)
-                    .map_err(too_many_elements)?;
-                Ok(Solid { complex, vertices: made.vertices, faces: made.faces })
-            })?;
-            Ok(&made.complex)
+                lap_complex::of_arrangement(made, a, arrangement.threads).map_err(too_many_elements)
+            })
         };
         unsafe { lend_complex(complex, find) }
     })
@@ -384,7 +374,8 @@ pub unsafe extern "C" fn lap_arrangement_complex_places(
     faces: *mut *const i32,
 ) -> i32 {
     guard(|_| {
-        let made = unsafe { handle(arrangement) }?.views.complex.get().ok_or(Status::BadArgument)?;
+        let complex = unsafe { handle(arrangement) }?.views.complex.get().ok_or(Status::BadArgument)?;
+        let made = complex.places.as_ref().ok_or(Status::Internal)?;
         unsafe {
             put(n_vertices, made.vertices.len() as i64);
             put(vertices, address(&made.vertices));

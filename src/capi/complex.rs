@@ -4,10 +4,12 @@ use super::derived::Derived;
 use super::guard::guard;
 use super::keys::Keyed;
 use super::view::{address, handle, index, put};
-use crate::base::{CellId, EdgeId, FaceId, PlaneId, Status, TriangleId, VertexId};
+use crate::arrangement::Arrangement;
+use crate::arrangement::solids::Solids;
+use crate::base::{CellId, Csr, EdgeId, FaceId, PlaneId, Status, TriangleId, VertexId};
 use crate::complex::{Complex, Origin, SupportId};
 use crate::mesh::TriMesh;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 /// A vertex of the input mesh. ids: its index in the caller's array
 pub const LAP_VERTEX_MESH: i32 = 0;
@@ -46,10 +48,19 @@ pub struct lap_complex {
     pub keyed: Keyed,
     /// Some of a solid's cells only: faces on planes may have one cell.
     pub part: bool,
+    /// Of an arrangement's cells: where it comes from.
+    pub places: Option<Places>,
     /// What the caller calls the triangles of the mesh; empty: positions.
     numbers: Vec<u32>,
     origins: OnceLock<(Vec<i32>, Vec<[i32; 3]>)>,
     supports: OnceLock<(Vec<i32>, Vec<i32>)>,
+}
+
+/// The arrangement whose cells make up a complex, and what there its vertices and its faces are.
+pub struct Places {
+    pub arrangement: Arc<Arrangement>,
+    pub vertices: Vec<VertexId>,
+    pub faces: Csr<FaceId>,
 }
 
 impl lap_complex {
@@ -73,17 +84,20 @@ impl lap_complex {
             derived: Derived::default(),
             keyed: Keyed::default(),
             part: false,
+            places: None,
             numbers: Vec::new(),
             origins: OnceLock::new(),
             supports: OnceLock::new(),
         })
     }
 
-    /// The same of an arrangement: `numbers` is what the caller calls the triangles.
-    pub fn of_arrangement(data: Complex, numbers: Vec<u32>, threads: usize) -> Result<Self, Status> {
-        let mut complex = Self::new(data, threads)?;
-        complex.keyed.triangles = Some(numbers.iter().map(|&n| n.into()).collect());
-        complex.numbers = numbers;
+    /// The same of an arrangement's cells.
+    pub fn of_arrangement(made: Solids, arrangement: &Arc<Arrangement>, threads: usize) -> Result<Self, Status> {
+        let mut complex = Self::new(made.complex, threads)?;
+        complex.numbers = arrangement.resolved.soup.given();
+        complex.keyed.triangles = Some(complex.numbers.iter().map(|&n| n.into()).collect());
+        let arrangement = arrangement.clone();
+        complex.places = Some(Places { arrangement, vertices: made.vertices, faces: made.faces });
         Ok(complex)
     }
 

@@ -7,9 +7,10 @@ use super::derived::on_demand;
 use super::guard::guard;
 use super::mesh::lap_mesh;
 use super::view::{address, handle, handle_mut, input, put};
+use crate::arrangement;
 use crate::base::{Error, PlaneId, Status};
 use crate::complex::keys::{check_ids, face_keys, names, vertex_keys};
-use crate::complex::{Complex, GlobalIds, Key};
+use crate::complex::{GlobalIds, Key};
 use std::sync::{Arc, OnceLock};
 
 /// Global ids of a complex, and its keys once they have been asked for.
@@ -36,7 +37,8 @@ struct Keys {
     faces: Result<Vec<Key>, Status>,
 }
 
-fn make(c: &Complex, keyed: &Keyed) -> Result<Keys, Status> {
+fn make(complex: &lap_complex) -> Result<Keys, Status> {
+    let (c, keyed) = (&complex.data, &complex.keyed);
     if !c.levels.points.is_empty() || !c.levels.supports.is_empty() {
         return Err(Status::BadArgument);
     }
@@ -46,17 +48,16 @@ fn make(c: &Complex, keyed: &Keyed) -> Result<Keys, Status> {
         plane_map: keyed.planes.as_ref().map(|p| &p.1[..]),
     };
     let names = names(&c.mesh, &c.planes, &ids).map_err(|error| error.status)?;
-    // Faces of an arrangement have no keys: theirs would take all triangles through each vertex.
-    let faces = match c.two_sided {
-        true => Err(Status::BadArgument),
-        false => face_keys(c, &names).map_err(|error| error.status),
+    let faces = match &complex.places {
+        Some(p) => arrangement::keys::face_keys(&p.arrangement, c, &p.vertices, &p.faces, &names),
+        None => face_keys(c, &names),
     };
+    let faces = faces.map_err(|error| error.status);
     Ok(Keys { vertices: vertex_keys(c, &names), faces })
 }
 
 fn demand(complex: &lap_complex) -> Result<&Keys, Status> {
-    let keyed = &complex.keyed;
-    let made = on_demand(complex.threads, &keyed.keys, || make(&complex.data, keyed))?;
+    let made = on_demand(complex.threads, &complex.keyed.keys, || make(complex))?;
     made.as_ref().map_err(|status| *status)
 }
 
@@ -147,9 +148,14 @@ pub unsafe extern "C" fn lap_complex_vertex_keys(
 /// The keys of the faces, as lap_complex_vertex_keys: no two faces have the same key, and a face that two complexes share has
 /// the same key in both. A key names one edge of the face's boundary with its direction, and so the face on its left.
 ///
+/// In complexes of arrangements (lap_arrangement_complex, lap_surface_complex) triangles are named by their places among those of all operands, one
+/// behind the other (a half-space counts thirteen), and half-spaces by theirs among half-spaces. Faces with the same boundary have the same key in all
+/// complexes of one arrangement and of arrangements of the same operands in the same order. Operands that are added behind the others change the keys
+/// of those faces only that they cut or touch.
+///
 /// Outputs (each may be NULL; borrowed as the complex): count; keys: 2 × count, the first number of a pair never negative.
 ///
-/// Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_BAD_ARGUMENT for that of a network or an arrangement, LAP_ERR_INCONSISTENT for input that intersects itself,
+/// Errors: LAP_ERR_NULL_POINTER if complex is NULL, LAP_ERR_BAD_ARGUMENT for that of a network, LAP_ERR_INCONSISTENT for input to a cut that intersects itself,
 /// LAP_ERR_OUT_OF_MEMORY. Threads: any. Cost: linear at the first call, then none.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn lap_complex_face_keys(

@@ -399,8 +399,7 @@ pub unsafe extern "C" fn lap_surface_complex(
             once(&solid.complex, || {
                 let a = &solid.arrangement;
                 let made = state.run(host, |run| solids(a, &joined_cells(a, &solid.inside), run))?;
-                lap_complex::of_arrangement(made.complex, a.resolved.soup.given(), surface.threads)
-                    .map_err(too_many_elements)
+                lap_complex::of_arrangement(made, a, surface.threads).map_err(too_many_elements)
             })
         };
         unsafe { lend_complex(complex, find) }

@@ -126,13 +126,13 @@ const TWO: u32 = 111;
 
 /// A tag below 128 and three ids.
 #[inline(always)]
-fn pack(tag: u32, a: u64, b: u64, c: u64) -> u128 {
+pub fn pack(tag: u32, a: u64, b: u64, c: u64) -> u128 {
     debug_assert!(tag < 128 && a < 1 << 40 && b < 1 << 40 && c < 1 << 40);
     (tag as u128) << 120 | (a as u128) << 80 | (b as u128) << 40 | c as u128
 }
 
 #[inline(always)]
-fn key(packed: u128) -> Key {
+pub fn key(packed: u128) -> Key {
     Key([(packed >> 64) as i64, packed as i64])
 }
 
@@ -200,7 +200,7 @@ fn plane_names(planes: &[Plane], ids: &[i64], map: Option<&[PlaneId]>) -> Vec<(u
 
 impl Names<'_> {
     #[inline(always)]
-    fn plane(&self, p: PlaneId) -> u64 {
+    pub fn plane(&self, p: PlaneId) -> u64 {
         if self.plane_names.is_empty() { p.0 as u64 } else { self.plane_names[p.at()].0 }
     }
 
@@ -209,13 +209,13 @@ impl Names<'_> {
     }
 
     #[inline(always)]
-    fn triangle(&self, t: TriangleId) -> u64 {
+    pub fn triangle(&self, t: TriangleId) -> u64 {
         self.triangles.map_or(t.0 as u64, |ids| ids[t.at()] as u64)
     }
 
     /// Smallest global triangle at a vertex, and the corner there.
     #[inline(always)]
-    fn vertex(&self, v: VertexId) -> (u64, u32) {
+    pub fn vertex(&self, v: VertexId) -> (u64, u32) {
         let name = self.vertices[v.at()];
         (name >> 2, (name & 3) as u32)
     }
