@@ -126,28 +126,30 @@ impl Keys<'_> {
             for (i, &u) in corners.iter().enumerate() {
                 let v = corners[(i + 1) % corners.len()];
                 let name = if first.1 { self.half_edge(first.0, u, v) } else { self.half_edge(first.0, v, u) };
-                least = least.into_iter().chain(name).min();
+                least = least.into_iter().chain(name?).min();
             }
         }
         least.or_else(|| loops().next()?.iter().filter_map(|v| self.corner(*v)).min())
     }
 
-    /// `None` if the same elements hold both ends.
-    fn half_edge(&self, t: Element, u: VertexId, v: VertexId) -> Option<u128> {
+    /// `Some(None)` if the same elements hold both ends.
+    fn half_edge(&self, t: Element, u: VertexId, v: VertexId) -> Option<Option<u128>> {
         let (of_u, of_v) = (self.through.row(u.at()), self.through.row(v.at()));
         let in_one = |a: &[Element], b: &[Element]| a.iter().copied().find(|e| b.binary_search(e).is_err());
-        let (d, end) = match in_one(of_u, of_v) {
-            Some(d) => (d, 0),
-            None => (in_one(of_v, of_u)?, 1),
+        let (d, end) = match (in_one(of_u, of_v), in_one(of_v, of_u)) {
+            (Some(d), _) => (d, 0),
+            (None, Some(d)) => (d, 1),
+            (None, None) => return Some(None),
         };
         let both = || of_u.iter().copied().filter(|e| of_v.binary_search(e).is_ok());
         let bits = d.is_sheet() | end << 1 | self.rises(u, v) << 2;
         if let Some(c) = both().find(|c| !self.coplanar(t.triangle, c.triangle)) {
-            return Some(pack(LINE + (t.is_sheet() | c.is_sheet() << 1 | bits << 2), t.id(), c.id(), d.id()));
+            let tag = LINE + (t.is_sheet() | c.is_sheet() << 1 | bits << 2);
+            return Some(Some(pack(tag, t.id(), c.id(), d.id())));
         }
         let side = |c: Element| (0..3).find(|&k| self.on_side(c, k, u) && self.on_side(c, k, v)).map(|k| (c, k));
         let (c, k) = both().find_map(side)?;
-        Some(pack(SIDE + (t.is_sheet() | bits << 1) + 16 * k as u32, t.id(), c.id(), d.id()))
+        Some(Some(pack(SIDE + (t.is_sheet() | bits << 1) + 16 * k as u32, t.id(), c.id(), d.id())))
     }
 
     /// A corner of a face that is all that its births have in common.
