@@ -1,7 +1,7 @@
 //! Arrangements of triangle meshes: the cells into which any number of meshes divide space, each with its winding-number vector; booleans are an
 //! extraction from it (the Mesh Arrangements paper, DESIGN §6).
 //!
-//! Stages in pipeline order: [`soup`] → [`intersect`] (with [`stars`], [`pair`], [`sheets`], [`points`]) → [`clusters`] → [`crossings`] → [`triangulate`] →
+//! Stages in pipeline order: [`soup`] → [`intersect`] (with [`stars`], [`pair`], [`sheets`], [`points`]) → [`clusters`] → [`crossings`] → [`triangulate`] (with [`regions`]) →
 //! [`resolve`] (→ [`clip`], of half-spaces: [`supports`]) → [`patches`] → [`cells`] (with [`nesting`]) → [`winding`] → [`extract`] (→ [`certify`], with
 //! [`flatten`], [`slabs`] and [`snap`]) or [`solids`] (→ [`keys`]).
 
@@ -20,6 +20,7 @@ pub mod pair;
 pub mod patches;
 pub mod planar;
 pub mod points;
+pub mod regions;
 pub mod resolve;
 pub mod sheets;
 pub mod slabs;

@@ -9,6 +9,7 @@
 use super::data::{Birth, Clusters, Graphs, Resolved, Soup};
 use super::planar::{Plane, turn_of_rounded};
 use super::points;
+use super::regions::Regions;
 use super::triangulate::{NONE, Triangulation, Vertices, curve_order, triangulate};
 use crate::base::{Csr, Error, FaceId, Result, Run, TriangleId, VertexId, Watch};
 use crate::exact::counters::{Predicate, Tier, count};
@@ -24,7 +25,8 @@ const CHUNK: usize = 1 << 10;
 /// A part of a cluster: its corners, positive in the plane of the cluster's first member, and the members that hold it.
 struct Parts {
     corners: Vec<[VertexId; 3]>,
-    births: Csr<TriangleId>,
+    /// `None`: the cluster is one triangle.
+    births: Option<Csr<TriangleId>>,
 }
 
 /// Resolves a soup. Errors: `Cancelled`; `Inconsistent` if a graph contradicts itself (a fault of the library).
@@ -36,10 +38,11 @@ pub fn resolve(soup: Soup, graphs: Graphs, clusters: &Clusters, pair_count: u64,
         let chunk = all.len()..count.min(all.len() + CHUNK);
         let fraction = |done: usize| 0.5 + 0.1 * done as f64 / count as f64;
         let made: Vec<Result<Parts>> = run.watched("triangulate", fraction(all.len()), |watch| {
-            let part = |c: usize| {
-                parts(&soup, &graphs, clusters.members.row(c), graphs.pieces.row(c), graphs.lone.row(c), watch)
+            let part = |regions: &mut Regions, c: usize| {
+                let graph = (graphs.pieces.row(c), graphs.lone.row(c));
+                parts(&soup, &graphs, clusters.members.row(c), graph, regions, watch)
             };
-            chunk.into_par_iter().with_min_len(LEAST).map(part).collect()
+            chunk.into_par_iter().with_min_len(LEAST).map_init(Regions::default, part).collect()
         })?;
         for part in made {
             all.push(part?);
@@ -64,11 +67,16 @@ pub fn resolve(soup: Soup, graphs: Graphs, clusters: &Clusters, pair_count: u64,
     let whole = faces.len();
     let (mut shared, mut births) = (Vec::new(), Csr::default());
     for (parts, members) in all.iter().zip(clusters.members.rows()) {
+        let Some(rows) = &parts.births else {
+            faces.extend_from_slice(&parts.corners);
+            support.resize(faces.len(), members[0]);
+            continue;
+        };
         let (axis, positive) = soup.open_axis(members[0]);
         let like = |m: &TriangleId| *m == members[0] || soup.turn_along(*m, axis) == positive;
         let same: Vec<bool> = members.iter().map(like).collect();
         let like_first = |t: &TriangleId| same[members.partition_point(|m| m < t)];
-        for (corners, holders) in parts.corners.iter().zip(parts.births.rows()) {
+        for (corners, holders) in parts.corners.iter().zip(rows.rows()) {
             let [a, b, c] = *corners;
             let oriented = like_first(&holders[0]);
             if holders.len() > 1 {
@@ -109,11 +117,29 @@ impl Vertices for Local<'_> {
         self.places[v as usize]
     }
     #[inline]
-    fn turn(&self, a: u32, b: u32, c: u32) -> Sign {
+    fn quick_turn(&self, a: u32, b: u32, c: u32) -> Option<Sign> {
         // As the plane would, without looking points up. No coordinate but those of the frame is above 1, and the frame is where it says.
         let [x, y, z] = [a, b, c].map(|v| self.places[v as usize]);
-        if let Some(sign) = turn_of_rounded(x, y, z, 1.0) {
+        let sign = turn_of_rounded(x, y, z, 1.0);
+        if sign.is_some() {
             count(Predicate::Projected, Tier::Filter);
+        }
+        sign
+    }
+    #[inline]
+    fn comes_before(&self, a: u32, b: u32) -> bool {
+        let (x, y) = (self.places[a as usize], self.places[b as usize]);
+        if x[0] != y[0] {
+            return x[0] < y[0];
+        }
+        let (u, v) = seen_along(self.plane.axis);
+        let axes = if self.plane.orientation == Sign::Negative { [v, u] } else { [u, v] };
+        let order = |axis: usize| exact::compare_coordinate(&self.point(a), &self.point(b), axis);
+        order(axes[0]).then_with(|| order(axes[1])).is_lt()
+    }
+    #[inline]
+    fn turn(&self, a: u32, b: u32, c: u32) -> Sign {
+        if let Some(sign) = self.quick_turn(a, b, c) {
             return sign;
         }
         let n = self.vertices.len() as u32;
@@ -133,24 +159,23 @@ fn parts(
     soup: &Soup,
     graphs: &Graphs,
     members: &[TriangleId],
-    pieces: &[[VertexId; 2]],
-    lone: &[VertexId],
+    (pieces, lone): (&[[VertexId; 2]], &[VertexId]),
+    regions: &mut Regions,
     watch: &Watch,
 ) -> Result<Parts> {
     watch.check()?;
     let mesh = &*soup.mesh;
     // Of a sheet: none.
     let corners = mesh.triangles.get(members[0].at()).copied();
-    let mut vertices: Vec<VertexId> = pieces.iter().flatten().chain(lone).copied().collect();
-    vertices.sort_unstable();
-    vertices.dedup();
+    regions.number(pieces, lone);
+    let vertices = &regions.vertices;
     let last = members[members.len() - 1];
     if let (Some(corners), 3, None) = (corners, vertices.len(), soup.sheet(last)) {
         // One triangle, or several on the same corners, that nothing cuts.
-        return Ok(Parts { corners: vec![corners], births: Csr::from_pairs(1, members.iter().map(|m| (0, *m))) });
+        let births = (members.len() > 1).then(|| Csr::from_pairs(1, members.iter().map(|m| (0, *m))));
+        return Ok(Parts { corners: vec![corners], births });
     }
     let number = |v: VertexId| vertices.partition_point(|w| *w < v) as u32;
-    let local_pieces: Vec<[u32; 2]> = pieces.iter().map(|p| p.map(number)).collect();
     let plane = Plane::new(soup, &graphs.points, members[0]);
     let (u, v) = seen_along(plane.axis);
     // Near 1, so that squares are in range.
@@ -164,10 +189,16 @@ fn parts(
     let made: Triangulation;
     let local;
     if let (Some(corners), 1) = (corners, members.len()) {
-        let start = [corners.map(number)];
+        let start = corners.map(number);
         local = Local { plane, vertices: vertices.clone(), places, frame: Vec::new() };
-        let order = curve_order(&local, (0..count).filter(|v| !start[0].contains(v)));
-        made = triangulate(&local, count as usize, (&start, &[[NONE; 3]]), &order, &local_pieces, watch)?;
+        made = match regions.triangulate(&local, start) {
+            Some(made) => made,
+            None => {
+                let order = curve_order(&local, (0..count).filter(|v| !start.contains(v)));
+                let start = (&[start][..], &[[NONE; 3]][..]);
+                triangulate(&local, count as usize, start, &order, &regions.pieces, watch)?
+            }
+        };
     } else {
         let frame = frame_around(&places);
         let as_point = |p: &[f64; 2]| {
@@ -185,24 +216,24 @@ fn parts(
         let [a, b, c, d] = [count, count + 1, count + 2, count + 3];
         let start = ([[a, b, c], [a, c, d]], [[NONE, NONE, 1], [0, NONE, NONE]]);
         let order = curve_order(&local, 0..count);
-        made = triangulate(&local, count as usize + 4, (&start.0, &start.1), &order, &local_pieces, watch)?;
+        made = triangulate(&local, count as usize + 4, (&start.0, &start.1), &order, &regions.pieces, watch)?;
     }
     debug_assert_eq!(made.check(&local), Ok(()));
+    let vertices = &regions.vertices;
     let all = |t: usize| made.corners[t].map(|v| vertices[v as usize]);
     if corners.is_some() && members.len() == 1 {
-        let births = Csr::from_pairs(made.corners.len(), (0..made.corners.len()).map(|i| (i, members[0])));
-        return Ok(Parts { corners: (0..made.corners.len()).map(all).collect(), births });
+        return Ok(Parts { corners: (0..made.corners.len()).map(all).collect(), births: None });
     }
-    let held = flood(soup, graphs, members, &made, &vertices, &plane, watch)?;
-    let mut parts = Parts { corners: Vec::new(), births: Csr::default() };
+    let held = flood(soup, graphs, members, &made, vertices, &plane, watch)?;
+    let (mut corners, mut births) = (Vec::new(), Csr::default());
     for t in 0..made.corners.len() {
         let row = held.row(t);
         if !row.is_empty() {
-            parts.corners.push(all(t));
-            parts.births.push_row(row);
+            corners.push(all(t));
+            births.push_row(row);
         }
     }
-    Ok(parts)
+    Ok(Parts { corners, births: Some(births) })
 }
 
 /// The power of two below a positive number.

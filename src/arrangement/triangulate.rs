@@ -29,6 +29,10 @@ pub trait Vertices {
     fn place(&self, v: u32) -> [f64; 2];
     /// The exact turn a → b → c.
     fn turn(&self, a: u32, b: u32, c: u32) -> Sign;
+    /// The same where doubles tell.
+    fn quick_turn(&self, a: u32, b: u32, c: u32) -> Option<Sign>;
+    /// Whether a vertex comes before another one by its coordinates in the plane, exactly, the first one first.
+    fn comes_before(&self, a: u32, b: u32) -> bool;
 }
 
 /// Triangles with their neighbours: side k joins corners k and k + 1.
@@ -122,6 +126,35 @@ pub fn curve_order(vertices: &impl Vertices, of: impl Iterator<Item = u32>) -> V
 }
 
 impl Triangulation {
+    /// No triangles yet, of so many vertices.
+    pub fn empty(count: usize, triangles: usize) -> Self {
+        Self {
+            corners: Vec::with_capacity(triangles),
+            across: Vec::with_capacity(triangles),
+            pieces: Vec::with_capacity(triangles),
+            at: vec![NONE; count],
+            budget: 64 * count,
+            stack: Vec::new(),
+        }
+    }
+
+    /// Adds a triangle beside others: across each side the triangle and the side of it that are there; where there is none yet the side counts as a piece.
+    /// Returns its number.
+    pub fn join(&mut self, corners: [u32; 3], beyond: [(u32, u32); 3]) -> u32 {
+        let t = self.corners.len() as u32;
+        let mut pieces = 0;
+        for (k, (n, side)) in beyond.into_iter().enumerate() {
+            match n {
+                NONE => pieces |= 1 << k,
+                _ => self.across[n as usize][side as usize] = t,
+            }
+        }
+        self.corners.push(corners);
+        self.across.push(beyond.map(|(n, _)| n));
+        self.pieces.push(pieces);
+        t
+    }
+
     #[inline(always)]
     fn side_of(&self, t: u32, neighbour: u32) -> usize {
         self.across[t as usize].iter().position(|&n| n == neighbour).unwrap_or(0)
@@ -258,7 +291,7 @@ impl Triangulation {
     }
 
     /// Flips what rounded coordinates find unfair, from some sides on.
-    fn fair(&mut self, vertices: &impl Vertices, sides: &[(u32, usize)]) {
+    pub fn fair(&mut self, vertices: &impl Vertices, sides: &[(u32, usize)]) {
         let mut stack = std::mem::take(&mut self.stack);
         stack.extend(sides.iter().map(|&(t, k)| (t, k as u32)));
         while let Some((t, k)) = stack.pop() {
