@@ -13,10 +13,7 @@
 //! Cost: building n log n (a sort of integers); a query as usual, logarithmic plus its answers. The result depends on
 //! coordinates and ids only.
 
-use crate::base::parallel::{Writer, map_ranges, ranges, write_parts3};
 use crate::base::{TriangleId, VertexId, Watch};
-use rayon::prelude::*;
-use std::ops::Range;
 
 /// Triangles per leaf.
 const LEAF: usize = 4;
@@ -78,67 +75,43 @@ pub fn build_bvh(vertices: &[[f64; 3]], triangles: &[[VertexId; 3]]) -> Bvh {
 
 /// Triangles between two looks at the caller's wish to stop.
 const OFTEN: usize = 1 << 13;
-/// Triangles in one task at least.
-const LEAST: usize = 1 << 14;
 
 /// The same; told to stop it returns a hierarchy of nothing.
 pub fn build_bvh_watched(vertices: &[[f64; 3]], triangles: &[[VertexId; 3]], watch: &Watch) -> Bvh {
     let n = triangles.len();
-    let box_of = |range: Range<usize>| {
-        let (mut lo, mut hi) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-        for v in triangles[range].iter().flatten() {
-            for i in 0..3 {
-                lo[i] = lo[i].min(vertices[v.at()][i]);
-                hi[i] = hi[i].max(vertices[v.at()][i]);
-            }
+    let (mut lo, mut hi) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+    for v in triangles.iter().flatten() {
+        for i in 0..3 {
+            lo[i] = lo[i].min(vertices[v.at()][i]);
+            hi[i] = hi[i].max(vertices[v.at()][i]);
         }
-        [lo, hi]
-    };
-    let boxes = map_ranges(n, LEAST, box_of);
-    let lo: [f64; 3] = std::array::from_fn(|i| boxes.iter().fold(f64::INFINITY, |x, b| x.min(b[0][i])));
-    let hi: [f64; 3] = std::array::from_fn(|i| boxes.iter().fold(f64::NEG_INFINITY, |x, b| x.max(b[1][i])));
+    }
     let centre: [f64; 3] = std::array::from_fn(|i| if n == 0 { 0.0 } else { lo[i] * 0.5 + hi[i] * 0.5 });
     let half = (0..3).map(|i| (hi[i] - centre[i]).max(centre[i] - lo[i])).fold(0.0, f64::max);
-    let mut bvh = Bvh { nodes: Vec::new(), boxes: Vec::new(), ids: Vec::new(), centre, scale: scale_for(half) };
+    let mut bvh =
+        Bvh { nodes: Vec::new(), boxes: Vec::with_capacity(n), ids: Vec::new(), centre, scale: scale_for(half) };
     if n == 0 {
         return bvh;
     }
-    let ranges = ranges(n, LEAST);
-    let lengths: Vec<usize> = ranges.iter().map(Range::len).collect();
-    let none = vec![0; ranges.len()];
-    let (mut keys, boxes, _) = write_parts3([&lengths, &lengths, &none], |i, keys, boxes, _: &mut Writer<u8>| {
-        let mut go_on = true;
-        for t in ranges[i].clone() {
-            if t % OFTEN == 0 {
-                go_on = watch.go_on();
-            }
-            // (Parts are filled in any case.)
-            let mut bounds = Box32::NOTHING;
-            if go_on {
-                for v in &triangles[t] {
-                    let x = bvh.map(&vertices[v.at()]);
-                    bounds.add(&Box32 { lo: x, hi: x });
-                }
-            }
-            keys.push((morton(&bounds), t as u32));
-            boxes.push(bounds);
+    let mut keys = Vec::with_capacity(n);
+    for (t, corners) in triangles.iter().enumerate() {
+        if t % OFTEN == 0 && !watch.go_on() {
+            return bvh;
         }
-    });
+        let mut bounds = Box32::NOTHING;
+        for v in corners {
+            let x = bvh.map(&vertices[v.at()]);
+            bounds.add(&Box32 { lo: x, hi: x });
+        }
+        keys.push((morton(&bounds), t as u32));
+        bvh.boxes.push(bounds);
+    }
+    keys.sort_unstable();
     if !watch.go_on() {
         return bvh;
     }
-    // Keys are all different, so there is one order.
-    if ranges.len() == 1 {
-        keys.sort_unstable()
-    } else {
-        keys.par_sort_unstable()
-    }
-    if !watch.go_on() {
-        return bvh;
-    }
-    bvh.boxes = keys.par_iter().with_min_len(LEAST).map(|&(_, t)| boxes[t as usize]).collect();
-    drop(boxes);
-    bvh.ids = keys.par_iter().with_min_len(LEAST).map(|&(_, t)| TriangleId(t)).collect();
+    bvh.boxes = keys.iter().map(|&(_, t)| bvh.boxes[t as usize]).collect();
+    bvh.ids = keys.iter().map(|&(_, t)| TriangleId(t)).collect();
     if !watch.go_on() {
         return bvh;
     }
