@@ -235,3 +235,97 @@ impl Regions {
         Some(())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Vertices of a triangle on a grid of integers, small enough for doubles to be exact.
+    struct Grid(Vec<[f64; 2]>);
+
+    impl Vertices for Grid {
+        fn place(&self, v: u32) -> [f64; 2] {
+            self.0[v as usize]
+        }
+        fn turn(&self, a: u32, b: u32, c: u32) -> Sign {
+            let [a, b, c] = [a, b, c].map(|v| self.0[v as usize]);
+            Sign::of((b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]))
+        }
+        fn quick_turn(&self, a: u32, b: u32, c: u32) -> Option<Sign> {
+            // As little as the real one tells.
+            Some(self.turn(a, b, c)).filter(|s| !s.is_zero())
+        }
+        fn comes_before(&self, a: u32, b: u32) -> bool {
+            let ([a, c], [b, d]) = (self.0[a as usize], self.0[b as usize]);
+            a < b || (a == b && c < d)
+        }
+    }
+
+    fn made(places: &[[f64; 2]], pieces: &[[u32; 2]], lone: &[u32]) -> Option<Triangulation> {
+        let ids = |p: &[u32; 2]| p.map(VertexId);
+        let mut regions = Regions::default();
+        regions.number(
+            &pieces.iter().map(ids).collect::<Vec<_>>(),
+            &lone.iter().map(|v| VertexId(*v)).collect::<Vec<_>>(),
+        );
+        assert_eq!((regions.vertices.len(), &regions.pieces[..]), (places.len(), pieces));
+        let grid = Grid(places.to_vec());
+        let made = regions.triangulate(&grid, [0, 1, 2])?;
+        assert_eq!(made.check(&grid), Ok(()));
+        let area = |c: &[u32; 3]| {
+            let [a, b, c] = c.map(|v| places[v as usize]);
+            (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1])
+        };
+        assert_eq!(made.corners.iter().map(area).sum::<f64>(), area(&[0, 1, 2]));
+        // Every piece is a side, of one triangle at the border and of two within.
+        let is_side = |c: &[u32; 3], p: &[u32; 2]| p.iter().all(|v| c.contains(v));
+        let on_border = |p: &[u32; 2]| {
+            let lines = [[0, 1], [1, 2], [2, 0]];
+            lines.iter().any(|[a, b]| p.iter().all(|&v| grid.turn(*a, *b, v).is_zero()))
+        };
+        for p in pieces {
+            assert_eq!(made.corners.iter().filter(|c| is_side(c, p)).count(), 2 - on_border(p) as usize, "{p:?}");
+        }
+        Some(made)
+    }
+
+    const CORNERS: [[f64; 2]; 3] = [[0.0, 0.0], [24.0, 0.0], [0.0, 24.0]];
+
+    #[test]
+    fn crossing_segments_straight_angles_and_regions_that_are_not_convex() {
+        // Two segments from side to side that cross in vertex 7.
+        let mut places = CORNERS.to_vec();
+        places.extend([[8.0, 0.0], [0.0, 8.0], [8.0, 16.0], [16.0, 8.0], [8.0, 8.0]]);
+        let border = [[0, 3], [0, 4], [1, 3], [1, 6], [2, 4], [2, 5], [5, 6]];
+        let cross = [[3, 7], [4, 7], [5, 7], [6, 7]];
+        let all: Vec<[u32; 2]> = border.iter().chain(&cross).copied().collect();
+        assert_eq!(made(&places, &all, &[]).expect("regions").corners.len(), 7);
+        // One of them alone, straight on in vertex 6; then with a bend there to either side.
+        for (bend, vertical) in [([8.0, 8.0], true), ([4.0, 8.0], true), ([15.0, 8.0], true), ([8.0, 3.0], false)] {
+            let mut places = CORNERS.to_vec();
+            let ends = if vertical { [[8.0, 0.0], [8.0, 16.0]] } else { [[2.0, 0.0], [20.0, 0.0]] };
+            places.extend([ends[0], ends[1], bend]);
+            let border = if vertical {
+                vec![[0, 2], [0, 3], [1, 3], [1, 4], [2, 4]]
+            } else {
+                vec![[0, 2], [0, 3], [1, 2], [1, 4], [3, 4]]
+            };
+            let all: Vec<[u32; 2]> = border.into_iter().chain([[3, 5], [4, 5]]).collect();
+            assert_eq!(made(&places, &all, &[]).expect("regions").corners.len(), 5, "{bend:?}");
+        }
+    }
+
+    #[test]
+    fn holes_ends_and_lone_vertices_are_left_to_others() {
+        let border = [[0, 1], [0, 2], [1, 2]];
+        let mut places = CORNERS.to_vec();
+        places.extend([[4.0, 4.0], [8.0, 4.0], [4.0, 8.0]]);
+        let hole: Vec<[u32; 2]> = border.iter().chain(&[[3, 4], [3, 5], [4, 5]]).copied().collect();
+        assert!(made(&places, &hole, &[]).is_none());
+        // A triangle within that hangs at a corner: the region around it comes to that corner twice.
+        let hanging = [[0, 1], [0, 2], [0, 3], [0, 4], [1, 2], [3, 4]];
+        assert!(made(&places[..5], &hanging, &[]).is_none());
+        assert!(made(&places[..4], &[[0, 1], [0, 2], [0, 3], [1, 2]], &[]).is_none());
+        assert!(made(&places[..4], &border, &[3]).is_none());
+    }
+}
