@@ -201,12 +201,10 @@ impl Regions {
             };
             // The ear with the shortest side within: a good start.
             let mut best = (f64::INFINITY, NONE as usize);
-            for i in 0..n {
-                if convex[i] {
-                    let length = length(i);
-                    if (length < best.0 || best.1 == NONE as usize) && is_free(i) {
-                        best = (length, i);
-                    }
+            for (i, _) in convex.iter().enumerate().filter(|(_, convex)| **convex) {
+                let length = length(i);
+                if (length < best.0 || best.1 == NONE as usize) && is_free(i) {
+                    best = (length, i);
                 }
             }
             if best.1 == NONE as usize {
