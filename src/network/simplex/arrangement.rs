@@ -47,6 +47,9 @@ fn construct<const TABLES: bool>(dim: usize, values: &[f64], scratch: &mut Scrat
     work.function_opposite.clear();
     let n = work.values.len();
     let entered = if TABLES && dim == 3 && n > 2 && work.enter_first_two() { 2 } else { 0 };
+    if entered == 0 {
+        work.start_simplex();
+    }
     for f in entered..n {
         insert(work, dim, f);
     }

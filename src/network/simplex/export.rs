@@ -7,6 +7,7 @@ use super::arrangement::{EVERYWHERE, NOWHERE};
 use super::data::*;
 use super::work::{FACETS, NONE, SUMMIT, State, Work};
 use crate::exact::Sign;
+use std::mem::take;
 
 /// Numbers of working elements in the result.
 #[derive(Clone, Debug, Default)]
@@ -48,43 +49,41 @@ impl SimplexComplex {
 
 pub(super) fn arrangement(work: &mut Work, maps: &mut Maps, dim: usize, out: &mut SimplexComplex) {
     let n = work.values.len();
+    // What is overwritten below need not be cleared.
+    let (mut loop_vertices, mut loop_edges, mut half_faces) = (vec![], vec![], vec![]);
+    if dim == 3 {
+        loop_vertices = take(&mut out.face_vertices.items);
+        loop_edges = take(&mut out.face_edges);
+        half_faces = take(&mut out.cell_faces.items);
+    }
     out.clear(Kind::Arrangement, dim, n);
     let plain = planes(work, maps, dim, out);
 
-    maps.vertices.clear();
-    maps.order.clear();
-    for (v, vertex) in work.vertices.iter().enumerate() {
-        // The apex alone is above the triangle.
-        let left_out = dim == 2 && vertex.carrier >> 3 != 0;
-        maps.vertices.push(if left_out { NONE } else { maps.order.len() as u32 });
-        if !left_out {
-            maps.order.push(v as u32);
-        }
-    }
-    let vertices = || maps.order.iter().map(|&v| &work.vertices[v as usize]);
+    // The apex, which is above the triangle, is left out.
+    let apex = if dim == 2 { 3 } else { work.vertices.len() };
+    let (below, above) = (&work.vertices[..apex], work.vertices.get(apex + 1..).unwrap_or(&[]));
+    let vertices = || below.iter().chain(above);
     out.vertex_carrier.extend(vertices().map(|v| Carrier(v.carrier)));
     out.vertex_encoding.extend(vertices().map(|v| v.functions().map(LocalFunction)));
     if plain && work.more.is_empty() {
         // As many functions as the carrier has dimensions; what is written beyond is overwritten.
+        let total = extend_offsets(&mut out.vertex_functions.offsets, vertices().map(|v| v.size as u32 - 1));
         let items = &mut out.vertex_functions.items;
-        items.resize(3 * maps.order.len() + 4, LocalFunction::NONE);
-        let mut end = 0;
-        for (v, encoding) in vertices().zip(&out.vertex_encoding) {
-            items[end..end + 4].copy_from_slice(encoding);
-            end += v.size as usize - 1;
-            out.vertex_functions.offsets.push(end as u32);
+        items.resize(total + 4, LocalFunction::NONE);
+        for (&at, encoding) in out.vertex_functions.offsets.iter().zip(&out.vertex_encoding) {
+            items[at as usize..at as usize + 4].copy_from_slice(encoding);
         }
-        items.truncate(end);
+        items.truncate(total);
     } else {
-        for &v in &maps.order {
+        for v in (0..work.vertices.len()).filter(|&v| v != apex) {
             maps.set.clear();
-            for p in work.vertices[v as usize].planes {
+            for p in work.vertices[v].planes {
                 // (The triangle itself has no row.)
                 if p != NONE && maps.rows[p as usize] != NONE {
                     maps.set.extend_from_slice(out.plane_functions.row(maps.rows[p as usize] as usize));
                 }
             }
-            more(work, v as usize, |p| match maps.rows[p as usize] {
+            more(work, v, |p| match maps.rows[p as usize] {
                 // It touches here only.
                 NONE => maps.set.push(LocalFunction(p - FACETS)),
                 row => maps.set.extend_from_slice(out.plane_functions.row(row as usize)),
@@ -105,29 +104,28 @@ pub(super) fn arrangement(work: &mut Work, maps: &mut Maps, dim: usize, out: &mu
         out.face_plane.extend(work.faces.iter().map(|f| LocalPlane(maps.rows[f.plane as usize])));
         out.face_cells.extend(work.faces.iter().map(cells));
         let total = extend_offsets(&mut out.face_vertices.offsets, work.faces.iter().map(|f| f.len));
-        out.face_vertices.items.resize(total, LocalVertex::NONE);
-        out.face_edges.resize(total, LocalEdge::NONE);
-        let mut at = 0;
-        for face in &work.faces {
-            let (from, len) = (face.at as usize, face.len as usize);
-            let to = out.face_vertices.items[at..at + len].iter_mut().zip(&mut out.face_edges[at..at + len]);
-            for ((vertex, edge), corner) in to.zip(&work.corners[from..from + len]) {
-                *vertex = LocalVertex(corner[0]);
-                *edge = LocalEdge(corner[1]);
-            }
-            at += len;
+        work.corners.extend_from_slice(&[[NONE; 2]; BLOCK]);
+        loop_vertices.resize(total + BLOCK, LocalVertex::NONE);
+        loop_edges.resize(total + BLOCK, LocalEdge::NONE);
+        for (face, &at) in work.faces.iter().zip(&out.face_vertices.offsets) {
+            let corners = &work.corners[face.at as usize..];
+            let (vertices, edges) = (&mut loop_vertices[at as usize..], &mut loop_edges[at as usize..]);
+            in_blocks(face.len, |k| {
+                *block_mut(vertices, k) = block(corners, k).map(|c| LocalVertex(c[0]));
+                *block_mut(edges, k) = block(corners, k).map(|c| LocalEdge(c[1]));
+            });
         }
+        loop_vertices.truncate(total);
+        loop_edges.truncate(total);
         let total = extend_offsets(&mut out.cell_faces.offsets, work.cells.iter().map(|c| c.len));
-        out.cell_faces.items.resize(total, LocalHalfFace(0));
-        let mut at = 0;
-        for cell in &work.cells {
-            let (from, len) = (cell.at as usize, cell.len as usize);
-            let to = &mut out.cell_faces.items[at..at + len];
-            for (half, &from) in to.iter_mut().zip(&work.half_faces[from..from + len]) {
-                *half = LocalHalfFace(from);
-            }
-            at += len;
+        work.half_faces.extend_from_slice(&[NONE; BLOCK]);
+        half_faces.resize(total + BLOCK, LocalHalfFace(NONE));
+        for (cell, &at) in work.cells.iter().zip(&out.cell_faces.offsets) {
+            let (from, to) = (&work.half_faces[cell.at as usize..], &mut half_faces[at as usize..]);
+            in_blocks(cell.len, |k| *block_mut(to, k) = block(from, k).map(LocalHalfFace));
         }
+        half_faces.truncate(total);
+        (out.face_vertices.items, out.face_edges, out.cell_faces.items) = (loop_vertices, loop_edges, half_faces);
     } else {
         maps.faces.clear();
         for face in &work.faces {
@@ -136,7 +134,7 @@ pub(super) fn arrangement(work: &mut Work, maps: &mut Maps, dim: usize, out: &mu
                 continue;
             }
             maps.faces.push(out.face_support.len() as u32);
-            let ends = segment(work, face.at, face.len, false).map(|v| LocalVertex(maps.vertices[v as usize]));
+            let ends = segment(work, face.at, face.len, false).map(|v| LocalVertex(v - (v > 3) as u32));
             out.face_vertices.push_row(&ends);
             out.face_support.push(support(face.plane));
             out.face_plane.push(LocalPlane(maps.rows[face.plane as usize]));
@@ -151,6 +149,30 @@ pub(super) fn arrangement(work: &mut Work, maps: &mut Maps, dim: usize, out: &mu
         }
     }
     labels(work, out);
+}
+
+/// Rows of three to eight items, nearly all of them: a block is copied at once, and what it brings along from behind its row is overwritten
+/// by the next one. So there is a block more at the end of all that is read or written so.
+const BLOCK: usize = 8;
+
+/// Visits where the blocks of a row of `len` items begin.
+#[inline(always)]
+fn in_blocks(len: u32, mut visit: impl FnMut(usize)) {
+    let mut k = 0;
+    while k < len as usize {
+        visit(k);
+        k += BLOCK;
+    }
+}
+
+#[inline(always)]
+fn block<T>(items: &[T], at: usize) -> &[T; BLOCK] {
+    items[at..].first_chunk().expect("a block more than there are items")
+}
+
+#[inline(always)]
+fn block_mut<T>(items: &mut [T], at: usize) -> &mut [T; BLOCK] {
+    items[at..].first_chunk_mut().expect("a block more than there are items")
 }
 
 /// Rows of planes: facets, then the distinct planes of functions. Returns whether each function has at most a plane of its own.
@@ -269,10 +291,12 @@ fn labels(work: &mut Work, out: &mut SimplexComplex) {
         out.cell_positive[word] |= if positive { bit } else { 0 };
     }
     let seen = n as u32 + 1;
+    let mut unseen = out.cell_count() - 1;
     work.stack.clear();
     work.stack.push(0);
     work.cells[0].mark = seen;
-    while let Some(c) = work.stack.pop() {
+    while unseen > 0 {
+        let c = work.stack.pop().expect("cells hang together");
         for half in out.cell_faces.row(c as usize) {
             let f = half.face();
             let other = out.face_cells[f.at()][1 - half.side()];
@@ -280,6 +304,7 @@ fn labels(work: &mut Work, out: &mut SimplexComplex) {
                 continue;
             }
             work.cells[other.at()].mark = seen;
+            unseen -= 1;
             let (from, to) = (c as usize * words, other.at() * words);
             out.cell_positive.copy_within(from..from + words, to);
             for g in out.plane_functions.row(out.face_plane[f.at()]) {

@@ -75,8 +75,8 @@ static EDGE_OF: [u8; 16] = {
 };
 
 impl Work {
-    /// Replaces the start ([`Work::start`] has been called, for an arrangement in a tetrahedron) by the complex of functions 0 and 1, if
-    /// they are in general position.
+    /// Begins ([`Work::start`] has been called, for an arrangement in a tetrahedron) with the complex of functions 0 and 1, if they are
+    /// in general position.
     pub fn enter_first_two(&mut self) -> bool {
         #[cfg(feature = "plain-signs")]
         if self.plain {
@@ -109,12 +109,11 @@ impl Work {
     }
 
     fn enter_edges(&mut self, view: &View) {
-        self.edges.clear();
         // Of each edge of the simplex (and, unused, of all others): the parts at its lower corner, between, at its higher corner.
         let mut parts = [[NONE; 3]; 7];
-        for (ends, e) in view.entry.edges.iter().zip(0u32..) {
-            let [(a, on_a), (b, on_b)] = ends.map(|v| view.vertex(v));
-            let carrier = a.join(b).0 as usize & 15;
+        self.edges.extend(view.entry.edges.iter().zip(0u32..).map(|(&ends, e)| {
+            let (carrier, functions) = view.between(ends);
+            let carrier = carrier.0 as usize & 15;
             let mut ends = ends.map(|v| view.number(v).0);
             let on = EDGE_OF[carrier] as usize;
             if on < 6 {
@@ -126,9 +125,9 @@ impl Work {
                 let place = if ends[0] == low { 0 } else { 1 + (ends[1] == high) as usize };
                 parts[on][place] = e;
             }
-            let [p, q, ..] = PLANES[carrier][(on_a & on_b) as usize & 3];
-            self.edges.push(Edge { ends, planes: [p, q, NONE], mark: 0, next: NONE, face: NONE });
-        }
+            let [p, q, ..] = PLANES[carrier][functions as usize & 3];
+            Edge { ends, planes: [p, q, NONE], mark: 0, next: NONE, face: NONE }
+        }));
         for (on, [low, middle, high]) in parts.into_iter().take(6).enumerate() {
             self.first_part[on] = low;
             self.edges[low as usize].next = if middle == NONE { high } else { middle };
@@ -145,20 +144,25 @@ impl Work {
 
     /// Returns the faces whose sides are not those of the entry's.
     fn enter_faces(&mut self, view: &View) -> u64 {
-        self.faces.clear();
-        self.corners.clear();
+        self.corners.resize(view.entry.corners.len(), [NONE; 2]);
         let mut turned = 0;
+        let mut at = 0;
         for f in 0..view.entry.faces.len() {
             let face = view.face(f);
             turned |= ((face.reversed != view.odd()) as u64) << f;
-            let (at, len) = (self.corners.len() as u32, face.corners.len());
-            let corner = |v: u8, e: u8| [view.number(v).0, e as u32];
+            let len = face.corners.len();
+            let to = &mut self.corners[at..at + len];
             if face.reversed {
                 // The edge behind a vertex is now the one that was before it.
-                let behind = |k: usize| face.corners[if k == 0 { len - 1 } else { k - 1 }][1];
-                self.corners.extend((0..len).rev().map(|k| corner(face.corners[k][0], behind(k))));
+                let mut before = face.corners[len - 1][1];
+                for (to, &[v, e]) in to.iter_mut().rev().zip(face.corners) {
+                    *to = [view.number(v).0, before as u32];
+                    before = e;
+                }
             } else {
-                self.corners.extend(face.corners.iter().map(|c| corner(c[0], c[1])));
+                for (to, &[v, e]) in to.iter_mut().zip(face.corners) {
+                    *to = [view.number(v).0, e as u32];
+                }
             }
             let plane = match face.support {
                 FaceSupport::Facet(c) => {
@@ -171,14 +175,13 @@ impl Work {
                 FaceSupport::Pair(..) => unreachable!("an interface's face"),
             };
             let cells = face.cells.map(|c| c.0);
-            self.faces.push(Face { at, len: len as u32, cells, plane, mark: 0, child: NONE, cut: NONE });
+            self.faces.push(Face { at: at as u32, len: len as u32, cells, plane, mark: 0, child: NONE, cut: NONE });
+            at += len;
         }
         turned
     }
 
     fn enter_cells(&mut self, view: &View, turned: u64) {
-        self.cells.clear();
-        self.half_faces.clear();
         self.half_faces.extend(view.entry.half_faces.iter().map(|&h| h as u32 ^ (turned >> (h >> 1)) as u32 & 1));
         let mut at = 0;
         for cell in view.entry.cells {

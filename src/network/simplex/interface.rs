@@ -39,6 +39,7 @@ pub fn interface_incremental(dim: usize, values: &[f64], scratch: &mut Scratch, 
     debug_assert!(values.len() > dim);
     let Scratch { work, maps } = scratch;
     work.start(dim, values, true);
+    work.start_simplex();
     work.dropped.clear();
     work.twin.clear();
     work.twin.resize(work.values.len(), NONE);

@@ -13,6 +13,7 @@
 //! Cost: linear in the corners of the faces that are looked at. Each face is looked at once a round; nothing is allocated for one.
 
 use super::work::{Class, Edge, FACETS, Face, NONE, State, Work};
+use crate::base::few::copy_few;
 
 /// What the signs around a face say.
 struct LoopSigns {
@@ -60,7 +61,7 @@ impl Work {
         }
         #[cfg(feature = "plain-signs")]
         self.refuse_ambiguous(f);
-        let signs = if len <= 64 { self.few_signs(corners.clone()) } else { self.many_signs(corners.clone()) };
+        let signs = if len <= 64 { self.few_signs::<KEEP>(corners.clone()) } else { self.many_signs(corners.clone()) };
         if !KEEP && signs.positive {
             self.drop_edges(corners, signs.dropped);
         }
@@ -83,7 +84,7 @@ impl Work {
 
     /// The signs around a loop of up to 64 corners, as bits.
     #[inline(always)]
-    fn few_signs(&self, corners: std::ops::Range<usize>) -> LoopSigns {
+    fn few_signs<const KEEP: bool>(&self, corners: std::ops::Range<usize>) -> LoopSigns {
         let (mut positive, mut zero) = (0u64, 0u64);
         let len = corners.len();
         for (k, corner) in self.corners[corners].iter().enumerate() {
@@ -104,7 +105,7 @@ impl Work {
             up: (positive & !before(positive)).trailing_zeros(),
             down: (!positive & before(positive)).trailing_zeros(),
             zero_edge: if zero_edges != 0 { zero_edges.trailing_zeros() } else { NONE },
-            dropped: not_negative & next(not_negative) & (positive | next(positive)),
+            dropped: if KEEP { 0 } else { not_negative & next(not_negative) & (positive | next(positive)) },
         }
     }
 
@@ -237,7 +238,10 @@ impl Work {
         let start = self.corners.len();
         let negative_at = start + if KEEP { positive + 2 } else { 0 };
         let negative_len = negative + !left_at_vertex as usize + 1;
-        self.corners.resize(negative_at + negative_len, [NONE; 2]);
+        // (Some at once: a call for a few bytes would cost more.)
+        while self.corners.len() < negative_at + negative_len {
+            self.corners.extend_from_slice(&[[NONE; 2]; 16]);
+        }
         let (old, new) = self.corners.split_at_mut(start);
         let old = &mut old[at..at + len];
         let copy = |to: &mut [[u32; 2]], from: usize| {
@@ -265,7 +269,7 @@ impl Work {
                 }
             }
         }
-        let part = &mut new[negative_at - start..];
+        let part = &mut new[negative_at - start..][..negative_len];
         let first = !left_at_vertex as usize;
         if !left_at_vertex {
             part[0] = [q, exit_negative];
@@ -277,10 +281,11 @@ impl Work {
         part[first + negative] = [p, cut];
         let face = &mut self.faces[f as usize];
         face.at = if negative_len <= len {
-            old[..negative_len].copy_from_slice(part);
+            copy_few(&mut old[..negative_len], part);
             self.corners.truncate(negative_at);
             at as u32
         } else {
+            self.corners.truncate(negative_at + negative_len);
             negative_at as u32
         };
         face.len = negative_len as u32;
@@ -343,7 +348,7 @@ impl Work {
         let cell = &mut self.cells[c as usize];
         let len = half_faces.len();
         if len <= cell.room as usize {
-            self.half_faces[cell.at as usize..cell.at as usize + len].copy_from_slice(half_faces);
+            copy_few(&mut self.half_faces[cell.at as usize..cell.at as usize + len], half_faces);
         } else {
             cell.at = self.half_faces.len() as u32;
             cell.room = len as u32;

@@ -41,6 +41,26 @@ const fn image(to: &[u8], set: usize) -> u8 {
     out
 }
 
+/// No entry has more vertices.
+const MOST: usize = 32;
+
+/// The number of each of an entry's vertices, by permutation: only corners have others.
+static NUMBERS: [[u8; MOST]; 24] = {
+    let mut out = [[0; MOST]; 24];
+    let mut i = 0;
+    while i < 24 * MOST {
+        let (p, v) = (i / MOST, i % MOST);
+        out[p][v] = if v < 4 { PERMUTATIONS[p][v] } else { v as u8 };
+        i += 1;
+    }
+    let mut e = 0;
+    while e < ENTRIES.len() {
+        assert!(ENTRIES[e].vertices.len() <= MOST);
+        e += 1;
+    }
+    out
+};
+
 /// The entry's corner for each of the simplex's; and whether the permutation is odd.
 static INVERSE: [([u8; 4], bool); 24] = {
     let mut out = [([0; 4], false); 24];
@@ -95,6 +115,7 @@ fn lowest(set: u8) -> LocalFunction {
 pub struct View {
     pub entry: &'static Entry,
     permutation: &'static [u8; 4],
+    numbers: &'static [u8; MOST],
     inverse: &'static [u8; 4],
     corner_sets: &'static [u8; 16],
     function_sets: &'static [u8; 8],
@@ -147,6 +168,7 @@ impl View {
         Self {
             entry,
             permutation: &PERMUTATIONS[p],
+            numbers: &NUMBERS[p],
             inverse,
             corner_sets: &CORNER_SETS[p],
             function_sets: &FUNCTION_SETS[s],
@@ -170,13 +192,20 @@ impl View {
     /// The number in the simplex for a vertex of the entry: only corners have others.
     #[inline(always)]
     pub fn number(&self, v: u8) -> LocalVertex {
-        LocalVertex(if v < 4 { self.permutation[v as usize] } else { v } as u32)
+        LocalVertex(self.numbers[v as usize & (MOST - 1)] as u32)
     }
     /// A vertex, by the entry's number: its carrier, and the functions that vanish (materials that are largest) there.
     #[inline(always)]
     pub fn vertex(&self, v: u8) -> (Carrier, u8) {
         let vertex = &self.entry.vertices[v as usize];
         (Carrier(self.corner_sets[vertex.carrier as usize & 15]), self.functions(vertex.functions))
+    }
+    /// The smallest sub-simplex that holds both of two vertices, and the functions that vanish at both.
+    #[inline(always)]
+    pub fn between(&self, [u, v]: [u8; 2]) -> (Carrier, u8) {
+        let (u, v) = (&self.entry.vertices[u as usize], &self.entry.vertices[v as usize]);
+        let carrier = self.corner_sets[(u.carrier | v.carrier) as usize & 15];
+        (Carrier(carrier), self.functions(u.functions & v.functions))
     }
     /// Its encoding, as a set.
     #[inline(always)]

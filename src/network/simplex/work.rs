@@ -253,7 +253,7 @@ impl Vertex {
 }
 
 impl Work {
-    /// Takes the values and starts with the simplex alone.
+    /// Takes the values and starts with the simplex's corners alone; [`Work::start_simplex`] or [`Work::enter_first_two`] comes next.
     pub fn start(&mut self, dim: usize, values: &[f64], interface: bool) {
         self.interface = interface;
         self.values.clear();
@@ -286,12 +286,21 @@ impl Work {
         self.free_vertices.clear();
         self.free_edges.clear();
         self.free_faces.clear();
-        if interface {
-            self.vertices.extend_from_slice(&START.vertices);
-            for (c, v) in self.vertices[..4].iter_mut().enumerate() {
+        self.vertices.extend_from_slice(&START.vertices[..4]);
+        self.more_head.extend_from_slice(&[NONE; 4]);
+        self.follow.extend_from_slice(&[[NONE; 2]; 4]);
+    }
+
+    /// The simplex alone.
+    pub fn start_simplex(&mut self) {
+        if self.interface {
+            for (c, v) in self.vertices.iter_mut().enumerate() {
                 v.planes[3] = FACETS;
                 v.w = self.scaled[0][c];
             }
+            self.vertices.push(START.vertices[SUMMIT as usize]);
+            self.more_head.push(NONE);
+            self.follow.push([NONE; 2]);
             self.edges.extend_from_slice(&START.edges);
             self.edges[..6].iter_mut().for_each(|e| e.planes[2] = FACETS);
             self.faces.extend_from_slice(&START.faces);
@@ -300,19 +309,16 @@ impl Work {
             self.half_faces.extend_from_slice(WALLS.as_flattened());
             // Cells are numbered by their hyperplanes.
             self.cells.extend((0..5).map(|c| Cell { at: 4 * c, len: 4, room: 4, mark: 0 }));
-            self.cells.resize(n + FACETS as usize, Cell::default());
+            self.cells.resize(self.values.len() + FACETS as usize, Cell::default());
             self.vertex_edge.clear();
             self.vertex_edge.extend([6, 7, 8, 9, 6]);
         } else {
-            self.vertices.extend_from_slice(&START.vertices[..4]);
             self.edges.extend_from_slice(&START.edges[..6]);
             self.first_part = [0, 1, 2, 3, 4, 5];
             self.faces.extend_from_slice(&START.faces[..4]);
             self.corners.extend_from_slice(CORNERS[..4].as_flattened());
             self.push_cell(&[0, 2, 4, 6]);
         }
-        self.more_head.resize(self.vertices.len(), NONE);
-        self.follow.resize(self.vertices.len(), [NONE; 2]);
     }
 
     pub fn push_cell(&mut self, half_faces: &[u32]) {
