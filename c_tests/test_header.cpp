@@ -46,8 +46,25 @@ int main()
     int calls = 0;
     context.set_progress([&](const char *, double) { return ++calls > 0; });
     lapidary::context moved = std::move(context);
-    const lapidary::cut cut(moved, mesh, {1, 0, 0, -0.5});
+    lapidary::cut cut(moved, mesh, {1, 0, 0, -0.5});
     check(calls > 0 && cut.complex().counts().cells == 2 && cut.plane_map().size() == 1 && !cut.stages().empty());
+
+    /* Another plane in the same place has another name, so what lies on it has other keys, and nothing else has. */
+    lapidary::cut named(moved, mesh, {1, 0, 0, -0.5});
+    named.set_plane_ids(moved, {7});
+    const lapidary::groups<std::int64_t, 2> keys[2] = {cut.complex().vertex_keys(), named.complex().vertex_keys()};
+    const lapidary::rows<std::int32_t> on = cut.complex().vertex_planes();
+    check(keys[0].count == cut.complex().counts().vertices && keys[1].count == keys[0].count);
+    for (std::int64_t v = 0; v < keys[0].count; ++v) {
+        const bool same = keys[0][v][0] == keys[1][v][0] && keys[0][v][1] == keys[1][v][1];
+        check(same == (on[v].size() == 0));
+    }
+    check(cut.complex().face_keys().count == cut.complex().counts().faces);
+
+    /* Without its last triangle it is open: defects, and no exception. */
+    check(lapidary::mesh::validate(moved, xyz, indices).empty());
+    check(!lapidary::mesh::validate(moved, xyz, {0, 2, 1, 0, 1, 3, 1, 2, 3}).empty());
+    check(moved.threads() == 2);
 
     /* Two planes that cross in a cube. */
     const std::vector<double> values = {-1, 1, -1, 1, -1, 1, -1, 1, -1, -1, 1, 1, -1, -1, 1, 1};

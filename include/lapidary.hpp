@@ -278,6 +278,23 @@ public:
         with.run(status);
     }
 
+    /* Every check there is, the one for self-intersections included: all defects, none of a mesh that is valid. */
+    static std::vector<defect> validate(context &with, const std::vector<double> &xyz,
+                                        const std::vector<std::int32_t> &indices,
+                                        const lap_mesh_options &options = mesh_options())
+    {
+        if (xyz.size() % 3 != 0) throw error(LAP_ERR_BAD_ARGUMENT, "xyz does not hold three numbers per vertex");
+        if (indices.size() % 3 != 0) throw error(LAP_ERR_BAD_ARGUMENT, "indices does not hold three numbers per triangle");
+        try {
+            with.run(lap_mesh_validate(with.get(), static_cast<std::int64_t>(xyz.size() / 3), xyz.data(),
+                                       static_cast<std::int64_t>(indices.size() / 3), indices.data(), &options, nullptr));
+        } catch (const error &e) {
+            if (e.status() != LAP_ERR_BAD_MESH) throw;
+            return e.defects();
+        }
+        return {};
+    }
+
     /* New coordinates on the same connectivity, three per vertex in the order of vertices(). What was borrowed before is
        no longer valid; cuts and grids made before are not touched. After an error the mesh is unchanged. */
     void update_coordinates(context &with, const std::vector<double> &xyz, const lap_mesh_options &options = mesh_options())
@@ -526,6 +543,18 @@ public:
         check(lap_complex_euler(get(), &e.output, &e.input));
         return e;
     }
+    groups<std::int64_t, 2> vertex_keys() const
+    {
+        groups<std::int64_t, 2> k;
+        check(lap_complex_vertex_keys(get(), &k.count, &k.data));
+        return k;
+    }
+    groups<std::int64_t, 2> face_keys() const
+    {
+        groups<std::int64_t, 2> k;
+        check(lap_complex_face_keys(get(), &k.count, &k.data));
+        return k;
+    }
     void check_consistency(context &with) const { with.run(lap_complex_check(with.get(), get())); }
     std::array<std::string, 3> exact_vertex(context &with, std::int32_t vertex) const
     {
@@ -582,6 +611,11 @@ public:
         view<std::int32_t> m;
         check(lap_cut_plane_map(get(), &m.count, &m.data));
         return m;
+    }
+    /* One id per plane as given, for keys: call it before they are asked for. */
+    void set_plane_ids(context &with, const std::vector<std::int64_t> &ids)
+    {
+        with.run(lap_cut_set_plane_ids(with.get(), handle_.get(), static_cast<std::int64_t>(ids.size()), ids.data()));
     }
     std::vector<stage> stages() const
     {
