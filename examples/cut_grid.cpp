@@ -6,6 +6,7 @@
 #include "grid.hpp"
 #include "planes.hpp"
 #include "program.hpp"
+#include "session.hpp"
 
 #include <lapidary.h>
 
@@ -17,8 +18,6 @@
 #include <string>
 #include <utility>
 #include <vector>
-
-#include <unistd.h>
 
 namespace {
 
@@ -103,14 +102,7 @@ Run run(lap_context *context, const Mesh &input, const Nodes &nodes, const lap_g
                                nodes.at(2), &options, &grid));
     result.grid.reset(grid);
     if (progress) end_progress(*progress);
-    std::int32_t count = 0;
-    must(context, lap_grid_stage_count(grid, &count));
-    for (std::int32_t i = 0; i < count; ++i) {
-        const char *name = nullptr;
-        double seconds = 0;
-        must(context, lap_grid_stage(grid, i, &name, &seconds));
-        result.times.stages.emplace_back(name, seconds);
-    }
+    add_stages<lap_grid>(result.times, context, grid, lap_grid_stage_count, lap_grid_stage);
     // Volumes, areas and centroids are made when they are first asked for.
     const auto moments = std::chrono::steady_clock::now();
     must(context, lap_grid_cell_moments(grid, nullptr, nullptr, nullptr, nullptr, nullptr));
@@ -121,18 +113,11 @@ Run run(lap_context *context, const Mesh &input, const Nodes &nodes, const lap_g
 
 int cut_grid(const Options &options)
 {
-    Mesh input = read_mesh(options.mesh);
-    if (options.flip) reverse(input);
+    Session session(options.threads);
+    lap_context *context = session.context();
+    const Mesh input = session.mesh(options);
     const Box box = bounding_box(input);
     const Nodes nodes = options.nodes.empty() ? even_nodes(box, options.count) : read_nodes(options.nodes);
-
-    lap_context *made = nullptr;
-    must(nullptr, lap_context_new(&made));
-    const Handle<lap_context> handle(made);
-    lap_context *context = handle.get();
-    must(context, lap_context_set_threads(context, static_cast<std::int32_t>(options.threads)));
-    if (!options.flip && reverse_if_inward(context, input))
-        std::cerr << options.mesh << " faces inward: all its triangles are reversed\n";
 
     lap_grid_options grid_options;
     must(context, lap_grid_options_init(&grid_options, static_cast<std::int32_t>(sizeof grid_options)));
@@ -142,36 +127,13 @@ int cut_grid(const Options &options)
         grid_options.block_high[axis] = static_cast<std::int32_t>(options.block[2 * axis + 1]);
     }
 
-    Progress progress;
-    progress.terminal = isatty(STDERR_FILENO) != 0;
-    must(context, lap_context_set_progress(context, show_progress, &progress));
-    if (options.check) {
-        start_progress(progress, "validate");
-        must(context, lap_mesh_validate(context, input.vertex_count(), input.coordinates.data(), input.triangle_count(),
-                                        input.triangles.data(), nullptr, nullptr));
-        end_progress(progress);
-    }
-
-    // The first run counts decisions and shows progress; the timed runs that follow do neither.
-    must(context, lap_context_counters_enable(context, 1));
-    Run best = run(context, input, nodes, grid_options, &progress);
     GridReport report;
-    report.counters = counters_of(context);
-    must(context, lap_context_counters_enable(context, 0));
-    must(context, lap_context_set_progress(context, nullptr, nullptr));
-    for (long i = 0; i < options.repeat; ++i) {
-        best.mesh.reset(); // one result at a time: the peak of memory is that of one run
-        best.grid.reset();
-        Run next = run(context, input, nodes, grid_options, nullptr);
-        if (i > 0 && best.times.total < next.times.total) next.times = std::move(best.times);
-        best = std::move(next);
-    }
+    const Run best = session.fastest(
+        options.repeat, [&](Progress *progress) { return run(context, input, nodes, grid_options, progress); },
+        [&](const Run &) { report.counters = counters_of(context); });
     report.mesh = options.mesh;
-    report.threads = options.threads;
-    report.repeat = options.repeat;
     report.outside = options.outside;
-    report.times = best.times;
-    report.peak_bytes = peak_bytes();
+    fill_run(report, options, best);
     if (options.check) must(context, lap_grid_check(context, best.grid.get()));
 
     fill_grid_report(report, context, best.mesh.get(), best.grid.get(), box);

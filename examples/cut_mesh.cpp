@@ -4,6 +4,7 @@
 // context and a mesh, cut, borrow the arrays of the complex, free. `cut_mesh --help` says how to use it.
 #include "planes.hpp"
 #include "program.hpp"
+#include "session.hpp"
 
 #include <lapidary.h>
 
@@ -17,8 +18,6 @@
 #include <string>
 #include <utility>
 #include <vector>
-
-#include <unistd.h>
 
 namespace {
 
@@ -104,68 +103,32 @@ Run run(lap_context *context, const Mesh &input, const std::vector<double> &plan
     result.cut.reset(cut);
     result.times.total = seconds_since(start);
     if (progress) end_progress(*progress);
-    std::int32_t count = 0;
-    must(context, lap_cut_stage_count(cut, &count));
-    for (std::int32_t i = 0; i < count; ++i) {
-        const char *name = nullptr;
-        double seconds = 0;
-        must(context, lap_cut_stage(cut, i, &name, &seconds));
-        result.times.stages.emplace_back(name, seconds);
-    }
+    add_stages<lap_cut>(result.times, context, cut, lap_cut_stage_count, lap_cut_stage);
     return result;
 }
 
 int cut_mesh(const Options &options)
 {
-    Mesh input = read_mesh(options.mesh);
-    if (options.flip) reverse(input);
+    Session session(options.threads);
+    lap_context *context = session.context();
+    const Mesh input = session.mesh(options);
     const Box box = bounding_box(input);
     std::vector<double> planes = grid_planes(box, options.grid);
     auto append = [&](const std::vector<double> &more) { planes.insert(planes.end(), more.begin(), more.end()); };
     if (!options.planes.empty()) append(read_planes(options.planes));
     append(random_planes(box, options.random, options.seed));
 
-    lap_context *made = nullptr;
-    must(nullptr, lap_context_new(&made));
-    const Handle<lap_context> handle(made);
-    lap_context *context = handle.get();
-    must(context, lap_context_set_threads(context, static_cast<std::int32_t>(options.threads)));
-    if (!options.flip && reverse_if_inward(context, input))
-        std::cerr << options.mesh << " faces inward: all its triangles are reversed\n";
-
     Report report;
     report.mesh = options.mesh;
-    report.threads = options.threads;
-    report.repeat = options.repeat;
     report.planes = static_cast<std::int64_t>(planes.size() / 4);
-    Progress progress;
-    progress.terminal = isatty(STDERR_FILENO) != 0;
-    must(context, lap_context_set_progress(context, show_progress, &progress));
-    if (options.check) {
-        start_progress(progress, "validate");
-        must(context, lap_mesh_validate(context, input.vertex_count(), input.coordinates.data(), input.triangle_count(),
-                                        input.triangles.data(), nullptr, nullptr));
-        end_progress(progress);
-    }
-
-    // The first run counts decisions and shows progress; the timed runs that follow do neither.
-    must(context, lap_context_counters_enable(context, 1));
-    Run best = run(context, input, planes, &progress);
-    report.counters = counters_of(context);
-    report.statistics = statistics_of(context, best.cut.get());
-    must(context, lap_context_counters_enable(context, 0));
-    must(context, lap_context_set_progress(context, nullptr, nullptr));
-    const double counted = best.times.total;
-    for (long i = 0; i < options.repeat; ++i) {
-        best.mesh.reset(); // one result at a time: the peak of memory is that of one run
-        best.cut.reset();
-        Run next = run(context, input, planes, nullptr);
-        if (i > 0 && best.times.total < next.times.total) next.times = std::move(best.times);
-        best = std::move(next);
-    }
-    report.counted_seconds = counted;
-    report.times = best.times;
-    report.peak_bytes = peak_bytes();
+    const Run best = session.fastest(
+        options.repeat, [&](Progress *progress) { return run(context, input, planes, progress); },
+        [&](const Run &counted) {
+            report.counters = counters_of(context);
+            report.statistics = statistics_of(context, counted.cut.get());
+            report.counted_seconds = counted.times.total;
+        });
+    fill_run(report, options, best);
 
     const lap_complex *complex = nullptr;
     must(context, lap_cut_complex(best.cut.get(), &complex));

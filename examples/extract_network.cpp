@@ -6,6 +6,7 @@
 #include "functions.hpp"
 #include "network.hpp"
 #include "program.hpp"
+#include "session.hpp"
 #include "simplex_cases.hpp"
 
 #include <lapidary.h>
@@ -18,8 +19,6 @@
 #include <string>
 #include <utility>
 #include <vector>
-
-#include <unistd.h>
 
 namespace {
 
@@ -150,24 +149,14 @@ Run run(lap_context *context, const Input &input, const lap_network_options &opt
     result.times.total = seconds_since(start);
     result.network.reset(network);
     if (progress) end_progress(*progress);
-    std::int32_t count = 0;
-    must(context, lap_network_stage_count(network, &count));
-    for (std::int32_t i = 0; i < count; ++i) {
-        const char *name = nullptr;
-        double seconds = 0;
-        must(context, lap_network_stage(network, i, &name, &seconds));
-        result.times.stages.emplace_back(name, seconds);
-    }
+    add_stages<lap_network>(result.times, context, network, lap_network_stage_count, lap_network_stage);
     return result;
 }
 
 int extract_network(const Options &options)
 {
-    lap_context *made = nullptr;
-    must(nullptr, lap_context_new(&made));
-    const Handle<lap_context> handle(made);
-    lap_context *context = handle.get();
-    must(context, lap_context_set_threads(context, static_cast<std::int32_t>(options.threads)));
+    Session session(options.threads);
+    lap_context *context = session.context();
     if (!options.simplex.empty()) {
         write_simplex_counts(context, options.simplex, options.json);
         return 0;
@@ -178,31 +167,16 @@ int extract_network(const Options &options)
     must(context, lap_network_options_init(&network_options, static_cast<std::int32_t>(sizeof network_options)));
     network_options.kind = options.ia ? LAP_NETWORK_ARRANGEMENT : LAP_NETWORK_INTERFACE;
 
-    // The first run counts decisions and shows progress; the timed runs that follow do neither.
-    Progress progress;
-    progress.terminal = isatty(STDERR_FILENO) != 0;
-    must(context, lap_context_set_progress(context, show_progress, &progress));
-    must(context, lap_context_counters_enable(context, 1));
-    Run best = run(context, input, network_options, &progress);
     NetworkReport report;
-    report.counters = counters_of(context);
-    must(context, lap_context_counters_enable(context, 0));
-    must(context, lap_context_set_progress(context, nullptr, nullptr));
-    for (long i = 0; i < options.repeat; ++i) {
-        best.network.reset(); // one result at a time: the peak of memory is that of one run
-        Run next = run(context, input, network_options, nullptr);
-        if (i > 0 && best.times.total < next.times.total) next.times = std::move(best.times);
-        best = std::move(next);
-    }
+    const Run best = session.fastest(
+        options.repeat, [&](Progress *progress) { return run(context, input, network_options, progress); },
+        [&](const Run &) { report.counters = counters_of(context); });
     report.interface = options.mi;
     report.source = options.tets.empty() ? options.functions : options.tets;
     report.functions = input.functions;
     report.nodes = input.node_count();
     report.tets = input.tet_count();
-    report.threads = options.threads;
-    report.repeat = options.repeat;
-    report.times = best.times;
-    report.peak_bytes = peak_bytes();
+    fill_run(report, options, best);
 
     fill_network_report(report, context, best.network.get());
     print_network_table(report);

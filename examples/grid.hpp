@@ -2,6 +2,7 @@
 #ifndef LAPIDARY_EXAMPLES_GRID_HPP
 #define LAPIDARY_EXAMPLES_GRID_HPP
 
+#include "numbers.hpp"
 #include "planes.hpp"
 #include "program.hpp"
 #include "report.hpp"
@@ -14,7 +15,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <fstream>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -46,31 +46,12 @@ inline Nodes even_nodes(const Box &box, const std::array<long, 3> &count)
 // std::runtime_error naming the line. Whether they rise is the library's to say.
 inline Nodes read_nodes(const std::string &path)
 {
-    std::ifstream file(path);
-    if (!file) throw std::runtime_error(path + ": cannot be opened");
     Nodes nodes;
-    std::string line, word;
     int axis = 0;
-    for (long number = 1; std::getline(file, line); ++number) {
-        std::istringstream words(line.substr(0, line.find('#')));
-        std::vector<double> values;
-        while (words >> word) {
-            std::size_t used = 0;
-            double value = 0;
-            try {
-                value = std::stod(word, &used);
-            } catch (const std::exception &) {
-                used = 0; // not a number, or out of range
-            }
-            if (used != word.size())
-                throw std::runtime_error(path + ", line " + std::to_string(number) + ": '" + word +
-                                         "' is not a double");
-            values.push_back(value);
-        }
-        if (values.empty()) continue;
-        if (axis == 3) throw std::runtime_error(path + ", line " + std::to_string(number) + ": a fourth line of nodes");
+    read_numbers(path, [&](std::vector<double> values, const std::string &where) {
+        if (axis == 3) throw std::runtime_error(where + ": a fourth line of nodes");
         nodes.along[axis++] = std::move(values);
-    }
+    });
     if (axis < 3) throw std::runtime_error(path + ": three lines of nodes are needed, along x, y and z");
     return nodes;
 }

@@ -4,6 +4,7 @@
 // a surface from it, borrow its arrays, free. `mesh_boolean --help` says how to use it.
 #include "boolean.hpp"
 #include "program.hpp"
+#include "session.hpp"
 
 #include <lapidary.h>
 
@@ -17,8 +18,6 @@
 #include <string>
 #include <utility>
 #include <vector>
-
-#include <unistd.h>
 
 namespace {
 
@@ -154,14 +153,7 @@ Run run(lap_context *context, const std::vector<lap_operand> &operands, const Op
     }
     result.times.total = seconds_since(start);
     if (progress) end_progress(*progress);
-    std::int32_t count = 0;
-    must(context, lap_arrangement_stage_count(arrangement, &count));
-    for (std::int32_t i = 0; i < count; ++i) {
-        const char *name = nullptr;
-        double seconds = 0;
-        must(context, lap_arrangement_stage(arrangement, i, &name, &seconds));
-        result.times.stages.emplace_back(name, seconds);
-    }
+    add_stages<lap_arrangement>(result.times, context, arrangement, lap_arrangement_stage_count, lap_arrangement_stage);
     result.times.stages.emplace_back("extract", extract);
     if (options.certify) result.times.stages.emplace_back("certify", certify);
     return result;
@@ -169,11 +161,8 @@ Run run(lap_context *context, const std::vector<lap_operand> &operands, const Op
 
 int mesh_boolean(const Options &options)
 {
-    lap_context *made = nullptr;
-    must(nullptr, lap_context_new(&made));
-    const Handle<lap_context> handle(made);
-    lap_context *context = handle.get();
-    must(context, lap_context_set_threads(context, static_cast<std::int32_t>(options.threads)));
+    Session session(options.threads);
+    lap_context *context = session.context();
 
     BooleanReport report;
     std::vector<Mesh> meshes;
@@ -191,28 +180,12 @@ int mesh_boolean(const Options &options)
         report.input.push_back({name.str(), 0, 0, 0});
     }
 
-    // The first run counts decisions and shows progress; the timed runs that follow do neither.
-    Progress progress;
-    progress.terminal = isatty(STDERR_FILENO) != 0;
-    must(context, lap_context_set_progress(context, show_progress, &progress));
-    must(context, lap_context_counters_enable(context, 1));
-    Run best = run(context, operands, options, &progress);
-    report.counters = counters_of(context);
-    must(context, lap_context_counters_enable(context, 0));
-    must(context, lap_context_set_progress(context, nullptr, nullptr));
-    for (long i = 0; i < options.repeat; ++i) {
-        best.surface.reset(); // one result at a time: the peak of memory is that of one run
-        best.arrangement.reset();
-        Run next = run(context, operands, options, nullptr);
-        if (i > 0 && best.times.total < next.times.total) next.times = std::move(best.times);
-        best = std::move(next);
-    }
+    const Run best = session.fastest(
+        options.repeat, [&](Progress *progress) { return run(context, operands, options, progress); },
+        [&](const Run &) { report.counters = counters_of(context); });
     report.operation = options.op;
     report.certify = options.certify;
-    report.threads = options.threads;
-    report.repeat = options.repeat;
-    report.times = best.times;
-    report.peak_bytes = peak_bytes();
+    fill_run(report, options, best);
 
     fill_arrangement(report, context, best.arrangement.get());
     fill_output(report, context, best.surface.get());

@@ -2,15 +2,14 @@
 #ifndef LAPIDARY_EXAMPLES_PLANES_HPP
 #define LAPIDARY_EXAMPLES_PLANES_HPP
 
+#include "numbers.hpp"
 #include "reader.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <fstream>
 #include <limits>
 #include <random>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -82,35 +81,15 @@ inline std::vector<double> random_planes(const Box &box, long count, std::uint64
 // std::runtime_error naming the line. Whether a plane is valid (finite, normal not zero) is the library's to say.
 inline std::vector<double> read_planes(const std::string &path)
 {
-    std::ifstream file(path);
-    if (!file) throw std::runtime_error(path + ": cannot be opened");
     std::vector<double> planes;
-    std::string line, word;
     bool first = true;
-    for (long number = 1; std::getline(file, line); ++number) {
-        std::istringstream words(line.substr(0, line.find('#')));
-        std::vector<double> values;
-        while (words >> word) {
-            std::size_t used = 0;
-            double value = 0;
-            try {
-                value = std::stod(word, &used);
-            } catch (const std::exception &) {
-                used = 0; // not a number, or out of range
-            }
-            if (used != word.size())
-                throw std::runtime_error(path + ", line " + std::to_string(number) + ": '" + word +
-                                         "' is not a double");
-            values.push_back(value);
-        }
-        if (values.empty()) continue;
+    read_numbers(path, [&](const std::vector<double> &values, const std::string &where) {
         const bool header = first && values.size() == 2 && values[1] == 4;
         first = false;
-        if (header) continue;
-        if (values.size() != 4)
-            throw std::runtime_error(path + ", line " + std::to_string(number) + ": expected `nx ny nz d`");
+        if (header) return;
+        if (values.size() != 4) throw std::runtime_error(where + ": expected `nx ny nz d`");
         planes.insert(planes.end(), values.begin(), values.end());
-    }
+    });
     return planes;
 }
 
