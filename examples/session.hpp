@@ -34,8 +34,6 @@ public:
     Session &operator=(const Session &) = delete;
 
     lap_context *context() const { return context_.get(); }
-    Progress &progress() { return progress_; }
-    void show(bool on) { must(context(), lap_context_set_progress(context(), on ? show_progress : nullptr, &progress_)); }
 
     // The mesh of the options, reversed if they say so or if it faces inward; validated if they say so.
     Mesh mesh(const OneMesh &options)
@@ -75,6 +73,8 @@ public:
     }
 
 private:
+    void show(bool on) { must(context(), lap_context_set_progress(context(), on ? show_progress : nullptr, &progress_)); }
+
     Progress progress_;
     Handle<lap_context> context_;
 };

@@ -19,7 +19,7 @@ pub fn sort_few(row: &mut [u64]) {
     }
 }
 
-/// Copies a row. Three to eight items are moved by two copies of a fixed size, which overlap: a call of the library's costs more.
+/// Copies a row. Two to eight items are moved by two copies of a fixed size, which overlap: a call of the library's costs more.
 #[inline(always)]
 pub fn copy_few<T: Copy>(to: &mut [T], from: &[T]) {
     assert_eq!(to.len(), from.len());
